@@ -1,0 +1,11 @@
+# Debian ships OpenCV's CMake package only with libopencv-dev, which drags in every module. Three small packages do, so
+# the libraries are found by name: target pyroscene::opencv (core, imgproc, imgcodecs).
+find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+foreach(part core imgproc imgcodecs)
+  find_library(OPENCV_${part}_LIBRARY opencv_${part} REQUIRED)
+  list(APPEND PYROSCENE_OPENCV_LIBRARIES ${OPENCV_${part}_LIBRARY})
+endforeach()
+add_library(pyroscene_opencv INTERFACE IMPORTED)
+add_library(pyroscene::opencv ALIAS pyroscene_opencv)
+target_include_directories(pyroscene_opencv SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
+target_link_libraries(pyroscene_opencv INTERFACE ${PYROSCENE_OPENCV_LIBRARIES})

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/map_grid.h"
+
+namespace pyroscene::gis {
+
+/// What a band carries besides its pixels. Wavelengths are written in band metadata (wavelength, wavelength_units, fwhm), in
+/// the ENVI domain and in the IMAGERY domain.
+struct OutputBand {
+    std::string description, unit;
+    std::optional<double> wavelength_um, fwhm_um;
+    std::map<std::string, std::string> metadata;
+};
+
+/// Ties pixels of a sensor-geometry image to the ground.
+struct GroundControlPoint {
+    double sample = 0.0, line = 0.0;  ///< pixel corner at integers
+    double lon_deg = 0.0, lat_deg = 0.0, h_m = 0.0;
+};
+
+/// Description of an output raster. Float32 with NaN nodata, or Byte with nodata 255 when `classes` is set.
+struct OutputRaster {
+    int cols = 0, rows = 0;
+    std::vector<OutputBand> bands;
+    std::optional<MapGrid> grid;                        ///< map geometry: CRS and transform
+    std::optional<std::filesystem::path> geolocation;   ///< sensor geometry: file with longitude in band 1, latitude in band 2
+    std::vector<GroundControlPoint> control_points;     ///< sensor geometry: fall-back for programs without geolocation arrays
+    std::map<std::string, std::string> metadata;        ///< default domain; synthetic=true is always added
+    std::string acquisition_time;                       ///< ISO 8601 UTC; also TIFFTAG_DATETIME. Empty = none
+    bool classes = false;                               ///< Byte, class names from `class_names`
+    std::vector<std::string> class_names;
+};
+
+/// Tiled, compressed GeoTIFF. `pixels` is [band][row][col]. Written under a temporary name and renamed; statistics included.
+/// Throws a runtime error naming the file.
+void write_geotiff(const std::filesystem::path& path, const OutputRaster& raster, std::span<const float> pixels);
+/// Double precision, for geolocation.
+void write_geotiff(const std::filesystem::path& path, const OutputRaster& raster, std::span<const double> pixels);
+
+/// Cloud-Optimized GeoTIFF (512 tiles, overviews by average, nearest for classes, statistics). `raster.grid` is required.
+void write_cog(const std::filesystem::path& path, const OutputRaster& raster, std::span<const float> pixels);
+
+/// A raster of our own (or any) read whole, for the products phase and resume.
+struct ImageFile {
+    int cols = 0, rows = 0;
+    std::vector<OutputBand> bands;
+    std::map<std::string, std::string> metadata;
+    std::vector<double> pixels;  ///< [band][row][col], nodata -> NaN
+};
+ImageFile read_image(const std::filesystem::path& path);
+/// Only the default-domain metadata; nullopt when the file cannot be opened.
+std::optional<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& path);
+
+}  // namespace pyroscene::gis

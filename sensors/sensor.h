@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/spectrum.h"
+
+namespace pyroscene::sensors {
+
+/// How an instrument looks at the ground. Geometry exists for Framing; the others are read and listed.
+enum class ScanType { Framing, Pushbroom, Whiskbroom, LineScanner, Conical, SpinScan, GeoScan };
+
+/// One focal plane: bands of a group share pixels.
+struct CameraGroup {
+    std::string id;
+    int samples = 0, lines = 0;                        ///< nx, ny
+    double focal_length_m = 0.0, pixel_pitch_m = 0.0;
+    std::array<double, 2> principal_point_px{};        ///< pixel CENTRES at integers, as the files write it
+    std::array<double, 3> radial{};                    ///< Brown k1, k2, k3 on (x/f, y/f)
+    std::array<double, 2> tangential{};                ///< Brown p1, p2
+};
+
+/// Point-spread function along one image axis.
+struct Psf {
+    enum class Shape { None, Box, Triangle, Gaussian, Trapezoid } shape = Shape::None;
+    double width_samples = 1.0;  ///< FWHM (gaussian) or full base of box / triangle, in samples
+};
+
+/// Radiance noise of a band.
+struct Noise {
+    enum class Kind { None, NoiseEquivalentTemperature, SignalToNoise, SignalToNoiseAtAlbedo } kind = Kind::None;
+    double value = 0.0;                       ///< K, or ratio
+    double at_temperature_K = 300.0;          ///< of an NEdT
+    std::optional<double> at_radiance;        ///< W m-2 sr-1 um-1 of an SNR; absent: ratio to the signal itself
+    std::optional<double> at_albedo;
+};
+
+struct Band {
+    std::string id, group;
+    double centre_um = 0.0, fwhm_um = 0.0;
+    Spectrum response;                                 ///< Quantity::Response, peak 1
+    bool measured_response = false;
+    Noise noise;
+    std::optional<double> saturation_radiance_W_m2_sr_um;
+    std::optional<int> bits;
+};
+
+struct Sensor {
+    std::string id, name, platform_name, source_path;
+    bool airborne = true;
+    double altitude_agl_m = 0.0, ground_speed_m_s = 0.0;
+    ScanType scan = ScanType::Framing;
+    std::array<double, 3> boresight_offset_rad{};      ///< roll, pitch, heading misalignment between body and camera
+    std::vector<CameraGroup> groups;
+    Psf psf_across, psf_along;
+    std::vector<Band> bands;                           ///< in file order
+
+    /// Throws an input error listing the groups there are.
+    [[nodiscard]] const CameraGroup& group(const std::string& id) const;
+    [[nodiscard]] std::vector<int> bands_of(const std::string& group_id) const;
+    [[nodiscard]] int band_index(const std::string& id) const;  ///< -1 = none
+};
+
+/// A shipped sensor by id, or a YAML file by path. Strict: an unknown key is an error with line and nearest key.
+Sensor load_sensor(const std::string& id_or_path);
+/// Ids of the shipped sensors, sorted.
+std::vector<std::string> sensor_ids();
+
+}  // namespace pyroscene::sensors

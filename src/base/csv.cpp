@@ -1,0 +1,91 @@
+#include "base/csv.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+
+namespace pyroscene {
+namespace {
+
+std::string_view trim(std::string_view s) {
+    const auto first = s.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos) return {};
+    return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string> split(std::string_view line) {
+    std::vector<std::string> fields;
+    for (std::size_t begin = 0;;) {
+        const auto comma = line.find(',', begin);
+        fields.emplace_back(trim(line.substr(begin, comma - begin)));
+        if (comma == std::string_view::npos) return fields;
+        begin = comma + 1;
+    }
+}
+
+}  // namespace
+
+double parse_number(std::string_view text, std::string_view subject) {
+    const std::string_view s = trim(text);
+    if (s == "nan" || s == "NaN") return std::nan("");
+    double value = 0.0;
+    const char* begin = s.data() + (!s.empty() && s.front() == '+' ? 1 : 0);
+    const auto [end, status] = std::from_chars(begin, s.data() + s.size(), value);
+    if (status != std::errc{} || end != s.data() + s.size() || s.empty())
+        throw input_error(subject, fmt::format("expected a number, found '{}'", s));
+    return value;
+}
+
+std::size_t CsvTable::column(std::string_view name) const {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        if (columns[i] == name) return i;
+    throw input_error(path, fmt::format("no column '{}'; the table has {}", name, fmt::join(columns, ", ")));
+}
+
+bool CsvTable::has(std::string_view name) const noexcept {
+    for (const auto& c : columns)
+        if (c == name) return true;
+    return false;
+}
+
+std::vector<double> CsvTable::numbers(std::string_view name) const {
+    const std::size_t c = column(name);
+    std::vector<double> out;
+    out.reserve(rows.size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+        out.push_back(parse_number(rows[r][c], fmt::format("{}:{}: column '{}'", path, row_lines[r], name)));
+    return out;
+}
+
+CsvTable read_csv(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    if (!in) throw input_error(path.string(), "cannot open the table");
+    CsvTable table;
+    table.path = path.string();
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number) {
+        const auto text = trim(line);
+        if (text.empty() || text.front() == '#') continue;
+        if (text.find('"') != std::string_view::npos)
+            throw input_error(fmt::format("{}:{}", table.path, number), "quoted fields are not supported");
+        auto fields = split(text);
+        if (table.columns.empty()) {
+            table.columns = std::move(fields);
+            continue;
+        }
+        if (fields.size() != table.columns.size())
+            throw input_error(fmt::format("{}:{}", table.path, number),
+                              fmt::format("found {} fields, expected {}", fields.size(), table.columns.size()));
+        table.rows.push_back(std::move(fields));
+        table.row_lines.push_back(number);
+    }
+    if (table.columns.empty()) throw input_error(table.path, "the table is empty");
+    return table;
+}
+
+}  // namespace pyroscene

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/raster.h"
+
+namespace pyroscene::fire {
+
+/// Which formulas are used: the physically right ones or the thesis's own (docs/physics.md says where they differ).
+enum class Physics { Default, Thesis };
+
+/// Label of a map cell (thesis 6.2). Values are those of the class band in the state file.
+enum class CellClass : std::uint8_t { Unburned = 0, Front = 1, Scar = 2, NoData = 255 };
+
+/// Coefficients of the scar cooling curve T(t) = T1 exp(-t/tau1) + T2 exp(-t/tau2) + Ta (thesis eq 4.17), defaults eq 4.18.
+/// Amplitudes are temperature differences [K]; the floor is an absolute temperature [K].
+struct ScarCooling {
+    double amplitude1_K = 578.97, time_constant1_s = 74.88;
+    double amplitude2_K = 197.50, time_constant2_s = 247.72;
+    double floor_K = 273.15 + 33.19;
+};
+
+/// All numbers of the fire model a scenario can set. Defaults: thesis values where usable, else docs/physics.md.
+struct FireParameters {
+    Physics physics = Physics::Default;
+    double front_threshold_W_m2 = 1000.0;            ///< heat flux above which a cell is front (thesis 6.2)
+    double front_temperature_K = 273.15 + 800.0;     ///< ground under the flames (thesis 6.2)
+    double ambient_temperature_K = 273.15 + 34.0;    ///< unburned ground (thesis 6.2)
+    double flaming_heat_flux_W_m2 = 5.0e5;           ///< heat flux inside the flaming zone; cell mean / this = area fraction that flames
+    ScarCooling scar;
+    double height_alpha = 1.0;                       ///< scale of flame-height method 1 (eq 4.22), dimensionless
+    double volumetric_heat_release_W_m3 = 2.0e6;     ///< chemical heat release per flame volume (thesis: 2000 kW m-3)
+    bool one_sigma_rule = true;                      ///< limit heights by the statistics of all earlier frames (thesis 4.6.1)
+    double air_density_kg_m3 = 1.18, air_heat_capacity_J_kg_K = 1005.0, air_temperature_K = 300.0;
+    double maximum_tilt_rad = 1.4835298641951802;    ///< 85 degrees
+    double jitter_m = 0.0;                           ///< half width of the uniform shift of flame columns (thesis 4.6.4)
+    std::uint64_t seed = 1;
+};
+
+/// Running count, mean and sum of squared deviations (Welford) of front-cell flame heights [m] of all earlier frames.
+struct RunningStatistics {
+    std::int64_t count = 0;
+    double mean_m = 0.0, m2_m2 = 0.0;
+
+    void add(double value_m) noexcept;
+    /// Sample standard deviation (n - 1); 0 while fewer than two values are known.
+    [[nodiscard]] double standard_deviation_m() const noexcept;
+};
+
+/// Rasters of one moment, all on one map grid.
+struct FrameInputs {
+    double time_s = 0.0;                               ///< since ignition
+    Raster<float> heat_flux_W_m2;                      ///< surface fire sensible heat flux, NaN = no data
+    Raster<float> wind_east_m_s, wind_north_m_s;       ///< along the grid's axes
+    std::optional<Raster<float>> arrival_time_s;       ///< seconds since ignition, NaN = never reached
+};
+
+/// What the fire has done up to one frame: a pure function of the previous state and this frame's inputs.
+struct FireState {
+    double time_s = 0.0;
+    Raster<std::uint8_t> cell_class;          ///< CellClass
+    Raster<float> arrival_time_s;             ///< first time the cell burned (from the arrival raster when given), NaN = not yet
+    Raster<float> last_burning_time_s;        ///< clock zero of the scar: last time the cell is known to have burned, NaN = never
+    Raster<float> surface_temperature_K;      ///< at time_s: front, scar curve or ambient
+    Raster<float> front_fraction;             ///< area fraction of the cell that flames, 0 outside the front
+    Raster<float> flame_height_m;             ///< eq 4.22 mean over the cell, after the one-sigma rule
+    Raster<float> ember_height_m;             ///< part of the height beyond one sigma, detached above the flame
+    Raster<float> flame_tilt_rad;             ///< from the vertical, 0 = upright
+    Raster<float> flame_azimuth_rad;          ///< direction the flame leans to, clockwise from grid north
+    RunningStatistics height_statistics;      ///< of all frames up to and including this one
+};
+
+/// The next state (thesis 6.2, 4.6). `previous` is null for the first frame. Throws an input error when grids differ
+/// or time does not advance.
+FireState advance(const FireState* previous, const FrameInputs& frame, const FireParameters& parameters);
+
+}  // namespace pyroscene::fire

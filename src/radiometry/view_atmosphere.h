@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+namespace pyroscene::radiometry {
+
+/// Everything the atmosphere does on the transport grid of one acquisition: illumination of the ground and, per view
+/// zenith angle, what happens between the ground and the sensor. Index i runs over the SpectralGrid's nodes.
+struct ViewAtmosphere {
+    // Illumination (at the ground). Solar terms are zero at night.
+    std::vector<float> direct_normal_irradiance_W_m2_um;   ///< on a plane normal to the beam
+    std::vector<float> diffuse_irradiance_W_m2_um;         ///< horizontal, including ground-sky bounces
+    std::vector<float> thermal_irradiance_W_m2_um;         ///< horizontal, from the sky
+
+    // View dependent: [node][lambda], nodes ascending in secant of the view zenith angle at the ground.
+    std::vector<double> node_secant;
+    std::vector<float> transmittance;
+    std::vector<float> path_thermal_W_m2_sr_um;
+    std::vector<float> path_solar_a0, path_solar_a1, path_solar_a2;  ///< cosine series in relative azimuth [W m-2 sr-1 um-1]
+    std::vector<float> solar_correlation;                            ///< C of the reflected beam, 1 in clear windows
+    std::vector<float> adjacency_W_m2_sr_um;                         ///< light of the surroundings scattered into the view
+
+    [[nodiscard]] int lambda_count() const noexcept { return static_cast<int>(direct_normal_irradiance_W_m2_um.size()); }
+
+    /// View terms interpolated to one direction, arrays of lambda_count().
+    struct View {
+        std::vector<float> transmittance, path_thermal, path_solar, solar_correlation, adjacency;
+        void resize(int n);
+    };
+    /// \param view_zenith_rad at the ground, clamped to the table  \param relative_azimuth_rad sun azimuth minus azimuth of
+    ///        the line of sight (sensor to target): 0 = looking towards the sun.  `out` must be resized; no allocation.
+    void at(double view_zenith_rad, double relative_azimuth_rad, View& out) const noexcept;
+};
+
+/// No air at all: transmittance 1, everything else 0; `lambda_count` nodes.
+ViewAtmosphere vacuum(int lambda_count);
+
+}  // namespace pyroscene::radiometry

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/raster.h"
+#include "base/report.h"
+#include "base/vec3.h"
+#include "fire/flame_field.h"
+#include "fire/surface_field.h"
+#include "radiometry/spectral_grid.h"
+#include "radiometry/view_atmosphere.h"
+#include "render/terrain_mesh.h"
+
+namespace pyroscene::render {
+
+/// A straight piece of a line of sight in the scene frame, from the sensor side to below the ground.
+struct SceneRay {
+    Vec3 start_m, end_m;
+};
+
+/// Terms of the at-sensor radiance (eq 4.44 with the thermal path and the thermal sky, docs/physics.md). They sum to the total.
+enum class Term {
+    GroundEmission, ReflectedSun, ReflectedSky, ReflectedThermalSky, ReflectedFlame, FlameEmission,
+    PathSolar, PathThermal, Adjacency
+};
+inline constexpr int kTermCount = 9;
+inline constexpr std::array<const char*, kTermCount> kTermNames{
+    "ground_emission", "reflected_sun", "reflected_sky", "reflected_thermal_sky", "reflected_flame", "flame_emission",
+    "path_solar", "path_thermal", "adjacency"};
+
+/// Spectral properties on the transport grid.
+struct SceneOptics {
+    int lambda_count = 0;
+    std::vector<double> lambda_um;
+    std::vector<float> flame_absorption_per_m;            ///< [lambda] of flame that fills its voxel
+    bool grey = false;                                    ///< absorption equal at all wavelengths: one exp per step
+    int material_count = 0;
+    std::vector<float> reflectance;                       ///< [material][lambda]; emissivity = 1 - reflectance
+    int burnt_material = 0;                               ///< material of burnt and burning ground
+};
+
+/// All that a camera can see. Pointers are not owned and must outlive the render.
+struct RenderScene {
+    const TerrainMesh* terrain = nullptr;
+    const fire::SurfaceField* surface = nullptr;
+    const Raster<std::uint8_t>* cover = nullptr;          ///< material of unburnt ground per map cell
+    const fire::FlameField* flame = nullptr;
+    const SceneOptics* optics = nullptr;
+    const radiometry::SpectralGrid* spectral = nullptr;
+    const radiometry::ViewAtmosphere* atmosphere = nullptr;
+    Vec3 scene_origin_m;                                  ///< map coordinates of the scene frame's origin (z = 0)
+    Vec3 to_sun;                                          ///< unit vector, scene frame; z <= 0 = night
+};
+
+/// Settings of the light that flames throw on the ground.
+struct GroundLightSettings {
+    int directions = 64;             ///< samples of the hemisphere
+    double reach_m = 500.0;          ///< ground farther than this from any flame receives none
+};
+
+/// Irradiance of the ground by flames, independent of any camera: E[receiver cell][lambda], on the map grid of the terrain.
+struct GroundIrradiance {
+    MapGrid grid;
+    std::vector<std::int32_t> row_of_cell;  ///< [map cell] row into `irradiance`, -1 = none
+    std::vector<float> irradiance_W_m2_um;  ///< [row][lambda]
+    int lambda_count = 0;
+};
+
+/// One bounce: hemisphere quadrature at each terrain cell near flames, through the flame field, occluded by terrain.
+/// Deterministic for any thread count.
+GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSettings& settings, const Monitor& monitor = {});
+
+/// View geometry of one pixel at the ground, for the atmosphere.
+struct PixelView {
+    double view_zenith_rad = 0.0;
+    double relative_azimuth_rad = 0.0;  ///< sun azimuth - line of sight azimuth
+};
+
+/// Where the sub-rays of an image come from. Callbacks are called from several threads at once.
+struct ImageRequest {
+    int samples = 0, lines = 0;
+    int rays_per_pixel = 1;
+    std::vector<double> ray_weight;  ///< [rays_per_pixel], sums to 1 (the PSF)
+    /// Fills the sub-rays of pixels [begin, end) of a line, pixel after pixel.
+    std::function<void(int line, int begin, int end, std::span<SceneRay> out)> rays;
+    /// View angles of a pixel whose mean ground hit (scene frame) is given.
+    std::function<PixelView(int line, int sample, Vec3 hit_m)> view;
+    bool terms = true;               ///< keep every radiance term apart
+};
+
+/// What one image holds before the detector. Planes are [line][sample], cubes [band][line][sample]; NaN where nothing is hit.
+struct RadianceImage {
+    int samples = 0, lines = 0, bands = 0;
+    std::vector<float> radiance_W_m2_sr_um;                    ///< [band][line][sample], noise-free
+    std::array<std::vector<float>, kTermCount> terms;          ///< each as radiance, empty when not asked for
+    std::vector<double> hit_x_m, hit_y_m, hit_z_m;             ///< PSF-weighted mean ground point, scene frame
+    std::vector<float> coverage;                               ///< weight of sub-rays that met the scene, 0..1
+    std::vector<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum = 1
+    std::vector<float> flame_temperature_K;                    ///< emission-weighted, NaN without flame
+    std::vector<float> ground_temperature_K;                   ///< (mean T^4)^(1/4) of the ground seen
+    std::vector<float> radiant_exitance_W_m2;                  ///< true FRP per ground area: flame + front + (scar - ambient)
+};
+
+/// The image. Bit-identical for any thread count. Throws Cancelled when the monitor asks.
+RadianceImage render_image(const RenderScene& scene, const GroundIrradiance* flame_light, const ImageRequest& request,
+                           const Monitor& monitor = {});
+
+}  // namespace pyroscene::render

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "base/raster.h"
+#include "base/vec3.h"
+
+namespace pyroscene::render {
+
+/// The ground as an Embree grid geometry (ROBUST) with a local origin. Vertices sit at cell centres, with an outer ring on
+/// the raster's rim, so the mesh covers the raster exactly. Cells without height are holes.
+class TerrainMesh {
+public:
+    /// \param height_m terrain heights on the map grid  \param scene_origin_m map x, y of the scene frame's origin; z is height
+    TerrainMesh(const Raster<float>& height_m, Vec3 scene_origin_m);
+    TerrainMesh(TerrainMesh&&) noexcept;
+    ~TerrainMesh();
+
+    struct Hit {
+        double distance_m = 0.0;  ///< along the ray
+        Vec3 point_m, normal;     ///< scene frame; the normal is the facet's, unit, z > 0
+    };
+    /// First ground point on the segment start -> end (scene frame). Thread-safe.
+    [[nodiscard]] std::optional<Hit> intersect(Vec3 start_m, Vec3 end_m) const noexcept;
+    /// True when terrain lies between the point and a place `distance_m` away. Thread-safe.
+    [[nodiscard]] bool occluded(Vec3 from_m, Vec3 direction, double distance_m) const noexcept;
+    /// {lowest, highest} height [m].
+    [[nodiscard]] std::array<double, 2> height_range_m() const noexcept;
+    [[nodiscard]] const MapGrid& grid() const noexcept;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pyroscene::render

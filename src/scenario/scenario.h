@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fire/flame_field.h"
+#include "fire/state.h"
+
+namespace pyroscene::scenario {
+
+/// One or several raster files with the bands to read and, for time series, the time of each frame.
+struct RasterSource {
+    std::vector<std::filesystem::path> files;  ///< absolute
+    std::vector<int> bands;                    ///< 1-based; empty = all (time series) or band 1
+    std::vector<double> times_s;               ///< one per frame; empty = band metadata time_s
+    int line = 0;                              ///< of the key in the scenario, for messages
+};
+
+/// Wind as rasters (u, v bands) or as one vector for the whole map.
+struct WindSource {
+    std::optional<RasterSource> raster;        ///< `bands` holds {u, v} of the first frame, or is empty: 1, 2 (or pairs per frame)
+    double speed_m_s = 0.0, from_deg = 270.0;
+};
+
+struct CoverSource {
+    RasterSource raster;
+    std::string table;                         ///< fbfm13, fbfm40, or a CSV file: code,surface
+};
+
+struct Inputs {
+    RasterSource terrain, heat_flux;
+    std::optional<RasterSource> fuel_load, arrival;
+    std::optional<WindSource> wind;            ///< absent = calm
+    std::optional<CoverSource> cover;          ///< absent = surface.unburned everywhere
+};
+
+/// Days since 1970 arithmetic is done once, here: seconds since the Unix epoch, UTC.
+struct UtcTime {
+    double unix_s = 0.0;
+    [[nodiscard]] std::string iso8601() const;
+};
+/// Parses "2017-07-15T22:00:00Z" (seconds and fraction optional, only Z). nullopt when it is none.
+std::optional<UtcTime> parse_utc(const std::string& text);
+
+struct AtmosphereSource {
+    std::string model = "midlatitude_summer";  ///< "none" = vacuum
+    double visibility_km = 23.0;
+    std::optional<std::filesystem::path> file;
+    std::optional<double> ground_elevation_m;  ///< default: mean terrain height
+};
+
+struct SurfaceSettings {
+    std::string unburned = "grass_dry";        ///< surface spectrum where no cover raster says otherwise
+    std::string burned = "char_black";
+    std::optional<double> emissivity;          ///< one grey emissivity for everything (furnace, thesis)
+};
+
+struct FlameSettings {
+    fire::FlameParameters parameters;
+    double soot_volume_fraction = 2e-7;
+    std::optional<double> grey_absorption_per_m;  ///< wavelength-independent absorption instead of soot
+    bool off = false;                             ///< no flames at all
+};
+
+struct RenderSettings {
+    int samples_per_axis = 3;                  ///< sub-rays per pixel = its square (1 when the PSF is none)
+    int light_directions = 64;
+    double light_reach_m = 500.0;
+    bool flame_light = true;
+    bool sun = true;                           ///< false = solar terms off whatever the hour
+};
+
+/// Pose of a frame: over a map place or at geographic coordinates.
+struct Platform {
+    std::optional<std::array<double, 2>> map_xy_m;     ///< over: {x_m, y_m}
+    std::optional<std::array<double, 2>> lat_lon_deg;  ///< lat_deg, lon_deg
+    bool over_centre = false;                          ///< over: centre
+    bool over_fire = false;                            ///< over: fire - centroid of the burning cells at that time
+    std::optional<double> altitude_agl_m, altitude_m;  ///< above the terrain below / above the ellipsoid
+    double heading_deg = 0.0, pitch_deg = 0.0, roll_deg = 0.0;
+};
+
+struct Acquisition {
+    std::string id, sensor;
+    double time_s = 0.0;
+    Platform platform;
+    std::vector<std::string> groups;           ///< camera groups; empty = all
+    std::vector<std::string> bands;            ///< empty = all
+    int line = 0;
+};
+
+struct Products {
+    bool radiance = true, brightness_temperature = true, ortho = true, truth = true, fractions = true, frp = true, quicklook = true;
+};
+
+/// All that the user asked for, fully checked by load(): files exist, sensors are known, numbers are in range.
+struct Scenario {
+    std::filesystem::path path;
+    std::string name, title;
+    std::optional<std::string> map_crs;
+    std::optional<double> map_cell_m;
+    double geoid_undulation_m = 0.0;
+    Inputs inputs;
+    UtcTime start;
+    fire::Physics physics = fire::Physics::Default;
+    fire::FireParameters fire;
+    FlameSettings flame;
+    SurfaceSettings surface;
+    AtmosphereSource atmosphere;
+    RenderSettings render;
+    std::vector<Acquisition> acquisitions;
+    Products products;
+    std::uint64_t seed = 1;
+};
+
+/// Reads and checks the file. All problems of the text are reported together in one input error (docs/scenario.md).
+/// Things that need the rasters opened (CRS, overlap, units, bands) are checked by the pipeline.
+Scenario load(const std::filesystem::path& path);
+
+/// JSON Schema (draft 2020-12) of the scenario file.
+std::string json_schema();
+
+}  // namespace pyroscene::scenario
