@@ -17,7 +17,9 @@ struct Problem {
     [[nodiscard]] std::string text() const;
 };
 
-/// Allowed values of a number; bounds are inclusive unless `open_minimum`.
+/// Allowed values of a number; bounds are inclusive unless `open_minimum`. ".inf" is refused unless the bound itself is
+/// infinite,
+/// ".nan" always.
 struct Range {
     double minimum = -1e300, maximum = 1e300;
     bool open_minimum = false;  ///< value must be > minimum
@@ -28,7 +30,8 @@ struct Range {
 };
 
 /// A strict view of a YAML node. Every key that is asked for becomes known; finish() reports the others with the nearest
-/// known key. Reading never throws: what is wrong is collected in the document, and a default is returned.
+/// known key. Reading never throws: what is wrong is collected in the document, and a default is returned. A key with an
+/// empty value or `null` counts as absent. Copies of a node, and nodes asked for twice, share what is known.
 class Node {
 public:
     Node() = default;  ///< absent
