@@ -17,9 +17,8 @@ struct Problem {
     [[nodiscard]] std::string text() const;
 };
 
-/// Allowed values of a number; bounds are inclusive unless `open_minimum`. ".inf" is refused unless the bound itself is
-/// infinite,
-/// ".nan" always.
+/// Allowed values of a number; bounds are inclusive unless `open_minimum`. ".nan" is never in a range, ".inf" only where the
+/// bound itself is infinite.
 struct Range {
     double minimum = -1e300, maximum = 1e300;
     bool open_minimum = false;  ///< value must be > minimum
