@@ -1,0 +1,71 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "fire/flame_field.h"
+#include "fire/sampling.h"
+
+namespace pyroscene::fire {
+namespace {
+
+void check(const FireState& state, const SurfaceField& surface, const Raster<float>& terrain_m, const FireParameters& fire) {
+    const MapGrid& grid = state.cell_class.grid;
+    if (!(terrain_m.grid == grid))
+        throw input_error("terrain", fmt::format("its grid of {} x {} cells is not the fire's of {} x {}",
+                                                 terrain_m.grid.cols, terrain_m.grid.rows, grid.cols, grid.rows));
+    if (surface.grid.cols != grid.cols * surface.refinement || surface.grid.rows != grid.rows * surface.refinement)
+        throw input_error("ground field", "was not made from this fire state");
+    if (!(fire.jitter_m >= 0.0 && std::isfinite(fire.jitter_m)))
+        throw input_error("fire.jitter_m", fmt::format("is {}, must not be negative", fire.jitter_m));
+}
+
+/// Uniform shift of the base in [-jitter, +jitter] per axis.
+void jitter(FlameColumn& column, const RandomKey& key, std::size_t fine_cell, double jitter_m) noexcept {
+    if (jitter_m == 0.0) return;
+    column.x_m += jitter_m * (2.0 * uniform01(key, fine_cell, 0) - 1.0);
+    column.y_m += jitter_m * (2.0 * uniform01(key, fine_cell, 1) - 1.0);
+}
+
+}  // namespace
+
+std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField& surface, const Raster<float>& terrain_m,
+                                      const FireParameters& fire, const FlameParameters& flame, Vec3 scene_origin) {
+    check(state, surface, terrain_m, fire);
+    const RandomKey key{fire.seed, stream_id("flame jitter"), random_frame(state.time_s)};
+    std::vector<FlameColumn> columns;
+    for (int row = 0; row < surface.grid.rows; ++row) {
+        for (int col = 0; col < surface.grid.cols; ++col) {
+            const std::size_t fine_cell = surface.grid.index(row, col);
+            const std::size_t cell = state.cell_class.grid.index(row / surface.refinement, col / surface.refinement);
+            const double fraction = surface.front_fraction[fine_cell], cell_fraction = state.front_fraction.values[cell];
+            if (!(fraction > 0.0 && cell_fraction > 0.0)) continue;
+
+            // The height is a mean over the cell; over the part that flames the same volume stands higher.
+            FlameColumn column{.x_m = surface.grid.x_centre_m(col),
+                               .y_m = surface.grid.y_centre_m(row),
+                               .width_m = surface.grid.cell_m,
+                               .area_fraction = fraction,
+                               .top_m = state.flame_height_m.values[cell] / cell_fraction,
+                               .tilt_rad = state.flame_tilt_rad.values[cell],
+                               .azimuth_rad = state.flame_azimuth_rad.values[cell],
+                               .temperature_K = flame.temperature_K};
+            jitter(column, key, fine_cell, fire.jitter_m);
+            column.z_m = bilinear_or_own(terrain_m, terrain_m.grid.col_at(column.x_m), terrain_m.grid.row_at(column.y_m));
+            if (std::isnan(column.z_m)) continue;
+            column.x_m -= scene_origin.x;
+            column.y_m -= scene_origin.y;
+            if (column.top_m > 0.0) columns.push_back(column);
+
+            const double ember_m = state.ember_height_m.values[cell] / cell_fraction;
+            if (!(ember_m > 0.0)) continue;
+            column.bottom_m = column.top_m + flame.ember_gap_m;
+            column.top_m = column.bottom_m + ember_m;
+            columns.push_back(column);
+        }
+    }
+    return columns;
+}
+
+}  // namespace pyroscene::fire

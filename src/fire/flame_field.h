@@ -13,13 +13,13 @@ namespace pyroscene::fire {
 
 /// Regular voxel lattice in the scene frame (map coordinates minus the scene origin): x east, y north, z up.
 struct VoxelGrid {
-    Vec3 corner_m;          ///< south-west-bottom corner
-    int nx = 0, ny = 0;     ///< columns to the east, rows to the NORTH (j = 0 is the southern row)
+    Vec3 corner_m;       ///< south-west-bottom corner
+    int nx = 0, ny = 0;  ///< columns to the east, rows to the NORTH (j = 0 is the southern row)
     double dx_m = 0.0, dy_m = 0.0, dz_m = 0.0;
 };
 
-/// One emitting voxel before bricking. `fill` is emissive volume / voxel volume (>= 0; it may exceed 1 where columns overlap)
-/// and scales the absorption coefficient, so that emissive volume is conserved when the voxel size changes.
+/// One emitting voxel before bricking. `fill` is emissive volume / voxel volume (>= 0; it may exceed 1 where columns
+/// overlap) and scales the absorption coefficient, so that emissive volume is conserved when the voxel size changes.
 struct FlameVoxel {
     int i = 0, j = 0, k = 0;
     float fill = 0.0F, temperature_K = 0.0F;
@@ -55,8 +55,12 @@ struct FlameField {
 };
 
 /// Builds the bricks; voxels of the same (i, j, k) are merged: fills add, temperatures average by fill. Order of the input
-/// does not matter to the bit. Throws an input error for k < 0 or i, j outside the grid.
+/// does not matter to the bit. Throws an input error for k < 0 or i, j outside the grid, a negative or infinite fill, and a
+/// grid without voxels.
 FlameField make_flame_field(const VoxelGrid& grid, std::span<const FlameVoxel> voxels);
+
+/// What is in voxel (i, j, k); fill 0 where there is no flame or no brick. Meant for export and tests, not for ray marching.
+FlameVoxel voxel_at(const FlameField& field, int i, int j, int k) noexcept;
 
 /// A leaning prism of flame over a horizontal rectangle on the terrain.
 struct FlameColumn {
@@ -76,13 +80,17 @@ struct FlameParameters {
 };
 
 /// Columns of all burning fine cells: their height is flame_height / front_fraction of the map cell over the flaming area,
-/// which conserves the volume of eq 4.21; jittered by the counter-based generator.
-/// \param scene_origin  map coordinates (x, y) of the scene frame's origin; z of the scene frame is terrain height itself
-/// \param terrain_m     on the map grid; base height of a column is bilinear in it
+/// which conserves the volume of eq 4.21; jittered by the counter-based generator. Detached flame (ember_height) is a second
+/// column above the gap. Fine cells whose terrain height is unknown have no flame. Throws an input error when the terrain or
+/// the surface is not on the state's grid. \param scene_origin  map coordinates (x, y) of the scene frame's origin; z of the
+/// scene frame is terrain height itself \param terrain_m     on the map grid; base height of a column is bilinear in it
 std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField& surface, const Raster<float>& terrain_m,
                                       const FireParameters& fire, const FlameParameters& flame, Vec3 scene_origin);
 
-/// Cuts the columns into voxels; each column's emissive volume goes to voxels by exact overlap, sheared by its tilt.
+/// Cuts the columns into voxels; each column's emissive volume goes to voxels by exact overlap, sheared by its tilt (slabs
+/// that shift by at most half a voxel). The lattice starts at the zero of the scene frame, so lattices of different frames
+/// coincide; heights are vertical, so shear conserves volume. Columns in any order give the same bits. Throws an input error
+/// for voxels too small for the memory and for a tilt beyond 89 degrees.
 FlameField voxelise(std::span<const FlameColumn> columns, const FlameParameters& flame);
 
 }  // namespace pyroscene::fire

@@ -1,0 +1,186 @@
+#include "fire/state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "fire/flame_height.h"
+#include "fire/flame_tilt.h"
+#include "fire/scar.h"
+
+namespace pyroscene::fire {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+/// Fluxes below this are rounding of the fire model, not fire [W m-2].
+constexpr double kZeroFlux_W_m2 = 1e-3;
+
+template <class T>
+void require_grid(const Raster<T>& raster, const MapGrid& expected, const char* subject) {
+    if (!(raster.grid == expected) || raster.values.size() != expected.size())
+        throw input_error(subject,
+                          fmt::format("its grid of {} x {} cells of {} m is not the heat flux's of {} x {} cells of {} m",
+                                      raster.grid.cols, raster.grid.rows, raster.grid.cell_m, expected.cols, expected.rows,
+                                      expected.cell_m));
+}
+
+void require_positive(double value, const char* subject) {
+    if (!(value > 0.0 && std::isfinite(value))) throw input_error(subject, fmt::format("is {}, must be above 0", value));
+}
+
+void check(const FireParameters& p) {
+    require_positive(p.flaming_heat_flux_W_m2, "fire.flaming_heat_flux_W_m2");
+    require_positive(p.volumetric_heat_release_W_m3, "fire.volumetric_heat_release_W_m3");
+    require_positive(p.scar.time_constant1_s, "scar.time_constant1_s");
+    require_positive(p.scar.time_constant2_s, "scar.time_constant2_s");
+    require_positive(p.air_density_kg_m3, "fire.air_density_kg_m3");
+    require_positive(p.air_heat_capacity_J_kg_K, "fire.air_heat_capacity_J_kg_K");
+    require_positive(p.air_temperature_K, "fire.air_temperature_K");
+    if (!(p.front_threshold_W_m2 >= 0.0))
+        throw input_error("fire.front_threshold_W_m2", fmt::format("is {}, must not be negative", p.front_threshold_W_m2));
+    if (!(p.maximum_tilt_rad >= 0.0 && p.maximum_tilt_rad <= 89.0 * kDegree_rad))
+        throw input_error("fire.maximum_tilt",
+                          fmt::format("is {} degrees, must lie within 0 and 89", p.maximum_tilt_rad / kDegree_rad));
+}
+
+void check(const FireState* previous, const FrameInputs& frame) {
+    const MapGrid& grid = frame.heat_flux_W_m2.grid;
+    require_grid(frame.heat_flux_W_m2, grid, "heat flux");
+    require_grid(frame.wind_east_m_s, grid, "wind east");
+    require_grid(frame.wind_north_m_s, grid, "wind north");
+    if (frame.arrival_time_s) require_grid(*frame.arrival_time_s, grid, "arrival time");
+    if (!std::isfinite(frame.time_s)) throw input_error("frame time", fmt::format("is {}, must be a number", frame.time_s));
+    if (previous == nullptr) return;
+    for (const auto* raster : {&previous->arrival_time_s, &previous->last_burning_time_s})
+        require_grid(*raster, grid, "previous state");
+    if (!previous->predicted_arrival_time_s.values.empty())
+        require_grid(previous->predicted_arrival_time_s, grid, "previous state");
+    if (!(frame.time_s > previous->time_s))
+        throw input_error("frame time", fmt::format("{} s does not come after the previous frame at {} s", frame.time_s,
+                                                    previous->time_s));
+}
+
+FireState blank_state(const FireState* previous, const FrameInputs& frame) {
+    const MapGrid& grid = frame.heat_flux_W_m2.grid;
+    FireState state;
+    state.time_s = frame.time_s;
+    state.cell_class = Raster<std::uint8_t>(grid, "class", "1");
+    state.arrival_time_s = Raster<float>(grid, "arrival_time", "s", kNaN);
+    state.last_burning_time_s = Raster<float>(grid, "last_burning_time", "s", kNaN);
+    state.surface_temperature_K = Raster<float>(grid, "surface_temperature", "K", kNaN);
+    state.front_fraction = Raster<float>(grid, "front_fraction", "1");
+    state.flame_height_m = Raster<float>(grid, "flame_height", "m");
+    state.ember_height_m = Raster<float>(grid, "ember_height", "m");
+    state.flame_tilt_rad = Raster<float>(grid, "flame_tilt", "rad");
+    state.flame_azimuth_rad = Raster<float>(grid, "flame_azimuth", "rad");
+    if (frame.arrival_time_s) {
+        state.predicted_arrival_time_s = *frame.arrival_time_s;
+    } else if (previous != nullptr) {
+        state.predicted_arrival_time_s = previous->predicted_arrival_time_s;
+    }
+    if (previous != nullptr) state.height_statistics = previous->height_statistics;
+    return state;
+}
+
+/// Later of two times of which one or both may be unknown (NaN).
+float later(float a_s, float b_s) noexcept { return std::fmax(a_s, b_s); }
+
+CellClass label(bool is_front, bool has_history, bool has_flux) noexcept {
+    if (is_front) return CellClass::Front;
+    if (has_history) return CellClass::Scar;
+    return has_flux ? CellClass::Unburned : CellClass::NoData;
+}
+
+/// Class, arrival and scar clock of every cell.
+void label_cells(FireState& state, const FireState* previous, const FrameInputs& frame, double threshold_W_m2) {
+    const bool has_arrival = !state.predicted_arrival_time_s.values.empty();
+    const auto now_s = static_cast<float>(frame.time_s);
+    for (std::size_t i = 0; i < state.cell_class.values.size(); ++i) {
+        const float flux = frame.heat_flux_W_m2.values[i];
+        const bool has_flux = std::isfinite(flux);
+        const bool is_front = has_flux && flux >= kZeroFlux_W_m2 && flux > threshold_W_m2;
+        const float given_s = has_arrival ? state.predicted_arrival_time_s.values[i] : kNaN;
+        const float reached_s = static_cast<double>(given_s) <= frame.time_s ? given_s : kNaN;
+        const float earlier_s = previous != nullptr ? previous->arrival_time_s.values[i] : kNaN;
+        const float clock_s = later(previous != nullptr ? previous->last_burning_time_s.values[i] : kNaN, reached_s);
+        const bool has_history = !std::isnan(reached_s) || !std::isnan(earlier_s);
+
+        state.cell_class.values[i] = static_cast<std::uint8_t>(label(is_front, has_history, has_flux));
+        state.last_burning_time_s.values[i] = is_front ? now_s : clock_s;
+        const float seen_s = std::isnan(earlier_s) && is_front ? now_s : earlier_s;
+        state.arrival_time_s.values[i] = std::isnan(reached_s) ? seen_s : reached_s;
+    }
+}
+
+void set_temperatures(FireState& state, const FireParameters& p) {
+    for (std::size_t i = 0; i < state.cell_class.values.size(); ++i) {
+        double T_K = p.ambient_temperature_K;
+        switch (static_cast<CellClass>(state.cell_class.values[i])) {
+            case CellClass::Front:
+                T_K = p.front_temperature_K;
+                break;
+            case CellClass::Scar:
+                T_K = scar_or_ambient_K(p, state.time_s - state.last_burning_time_s.values[i]);
+                break;
+            case CellClass::Unburned:
+                break;
+            case CellClass::NoData:
+                continue;
+        }
+        state.surface_temperature_K.values[i] = static_cast<float>(T_K);
+    }
+}
+
+/// Tilt and azimuth of a front cell; upright where the wind is unknown.
+void set_tilt(FireState& state, std::size_t i, double heat_flux_W_m2, const FrameInputs& frame, const FireParameters& p) {
+    const double east_m_s = frame.wind_east_m_s.values[i], north_m_s = frame.wind_north_m_s.values[i];
+    if (!std::isfinite(east_m_s) || !std::isfinite(north_m_s)) return;
+    const double tilt_rad =
+        flame_tilt_buoyant_velocity_rad({.wind_m_s = std::hypot(east_m_s, north_m_s),
+                                         .fireline_intensity_W_m = heat_flux_W_m2 * state.cell_class.grid.cell_m,
+                                         .air_density_kg_m3 = p.air_density_kg_m3,
+                                         .air_heat_capacity_J_kg_K = p.air_heat_capacity_J_kg_K,
+                                         .air_temperature_K = p.air_temperature_K});
+    state.flame_tilt_rad.values[i] = static_cast<float>(std::min(tilt_rad, p.maximum_tilt_rad));
+    const auto azimuth_rad = static_cast<float>(downwind_azimuth_rad(east_m_s, north_m_s));
+    // Rounding to float may lift a value just below the full turn onto it.
+    state.flame_azimuth_rad.values[i] = static_cast<double>(azimuth_rad) < 2.0 * kPi ? azimuth_rad : 0.0F;
+}
+
+/// Fraction, height and tilt of every front cell, in row-major order so that the running statistics are reproducible.
+void set_flames(FireState& state, const FrameInputs& frame, const FireParameters& p) {
+    const RunningStatistics earlier = state.height_statistics;
+    for (std::size_t i = 0; i < state.cell_class.values.size(); ++i) {
+        if (state.cell_class.values[i] != static_cast<std::uint8_t>(CellClass::Front)) continue;
+        const double heat_flux_W_m2 = frame.heat_flux_W_m2.values[i];
+        const double fraction =
+            p.physics == Physics::Thesis ? 1.0 : std::min(1.0, heat_flux_W_m2 / p.flaming_heat_flux_W_m2);
+        state.front_fraction.values[i] = static_cast<float>(fraction);
+
+        const double height_m = flame_height_heat_flux_m(heat_flux_W_m2, p.height_alpha, p.volumetric_heat_release_W_m3);
+        const LimitedHeight limited =
+            p.one_sigma_rule ? limit_height(height_m, earlier, p.physics) : LimitedHeight{height_m, 0.0};
+        state.flame_height_m.values[i] = static_cast<float>(limited.flame_m);
+        state.ember_height_m.values[i] = static_cast<float>(limited.ember_m);
+        state.height_statistics.add(height_m);
+        set_tilt(state, i, heat_flux_W_m2, frame, p);
+    }
+}
+
+}  // namespace
+
+FireState advance(const FireState* previous, const FrameInputs& frame, const FireParameters& parameters) {
+    check(parameters);
+    check(previous, frame);
+    FireState state = blank_state(previous, frame);
+    label_cells(state, previous, frame, parameters.front_threshold_W_m2);
+    set_temperatures(state, parameters);
+    set_flames(state, frame, parameters);
+    return state;
+}
+
+}  // namespace pyroscene::fire

@@ -7,7 +7,7 @@
 
 namespace pyroscene::fire {
 
-/// Which formulas are used: the physically right ones or the thesis's own (docs/physics.md says where they differ).
+/// Which formulas are used: the physically right ones or the thesis's own (docs/physics-fire.md says where they differ).
 enum class Physics { Default, Thesis };
 
 /// Label of a map cell (thesis 6.2). Values are those of the class band in the state file.
@@ -21,20 +21,21 @@ struct ScarCooling {
     double floor_K = 273.15 + 33.19;
 };
 
-/// All numbers of the fire model a scenario can set. Defaults: thesis values where usable, else docs/physics.md.
+/// All numbers of the fire model a scenario can set. Defaults: thesis values where usable, else docs/physics-fire.md.
 struct FireParameters {
     Physics physics = Physics::Default;
-    double front_threshold_W_m2 = 1000.0;            ///< heat flux above which a cell is front (thesis 6.2)
-    double front_temperature_K = 273.15 + 800.0;     ///< ground under the flames (thesis 6.2)
-    double ambient_temperature_K = 273.15 + 34.0;    ///< unburned ground (thesis 6.2)
-    double flaming_heat_flux_W_m2 = 5.0e5;           ///< heat flux inside the flaming zone; cell mean / this = area fraction that flames
+    double front_threshold_W_m2 = 1000.0;          ///< heat flux above which a cell is front (thesis 6.2)
+    double front_temperature_K = 273.15 + 800.0;   ///< ground under the flames (thesis 6.2)
+    double ambient_temperature_K = 273.15 + 34.0;  ///< unburned ground (thesis 6.2)
+    double flaming_heat_flux_W_m2 =
+        5.0e5;  ///< heat flux inside the flaming zone; cell mean / this = area fraction that flames
     ScarCooling scar;
-    double height_alpha = 1.0;                       ///< scale of flame-height method 1 (eq 4.22), dimensionless
-    double volumetric_heat_release_W_m3 = 2.0e6;     ///< chemical heat release per flame volume (thesis: 2000 kW m-3)
-    bool one_sigma_rule = true;                      ///< limit heights by the statistics of all earlier frames (thesis 4.6.1)
+    double height_alpha = 1.0;                    ///< scale of flame-height method 1 (eq 4.22), dimensionless
+    double volumetric_heat_release_W_m3 = 2.0e6;  ///< chemical heat release per flame volume (thesis: 2000 kW m-3)
+    bool one_sigma_rule = true;                   ///< limit heights by the statistics of all earlier frames (thesis 4.6.1)
     double air_density_kg_m3 = 1.18, air_heat_capacity_J_kg_K = 1005.0, air_temperature_K = 300.0;
-    double maximum_tilt_rad = 1.4835298641951802;    ///< 85 degrees
-    double jitter_m = 0.0;                           ///< half width of the uniform shift of flame columns (thesis 4.6.4)
+    double maximum_tilt_rad = 1.4835298641951802;  ///< 85 degrees; at most 89 (a flat flame has no shear)
+    double jitter_m = 0.0;                         ///< half width of the uniform shift of flame columns (thesis 4.6.4)
     std::uint64_t seed = 1;
 };
 
@@ -50,29 +51,41 @@ struct RunningStatistics {
 
 /// Rasters of one moment, all on one map grid.
 struct FrameInputs {
-    double time_s = 0.0;                               ///< since ignition
-    Raster<float> heat_flux_W_m2;                      ///< surface fire sensible heat flux, NaN = no data
-    Raster<float> wind_east_m_s, wind_north_m_s;       ///< along the grid's axes
-    std::optional<Raster<float>> arrival_time_s;       ///< seconds since ignition, NaN = never reached
+    double time_s = 0.0;                          ///< since ignition
+    Raster<float> heat_flux_W_m2;                 ///< surface fire sensible heat flux, cell mean; not finite = no data
+    Raster<float> wind_east_m_s, wind_north_m_s;  ///< along the grid's axes; not finite = calm
+    std::optional<Raster<float>> arrival_time_s;  ///< seconds since ignition, NaN = never reached
 };
 
-/// What the fire has done up to one frame: a pure function of the previous state and this frame's inputs.
+/// What the fire has done up to one frame: a pure function of the previous state and this frame's inputs. Its size does not
+/// depend on the number of frames.
+///
+/// To continue from a stored state, advance() needs, to the bit: time_s, arrival_time_s, last_burning_time_s,
+/// height_statistics and, when frames come without an arrival raster of their own, predicted_arrival_time_s.
+/// To see a stored state, surface_at() and make_columns() need in addition cell_class, front_fraction, flame_height_m,
+/// ember_height_m, flame_tilt_rad and flame_azimuth_rad. surface_temperature_K is for people: nothing reads it.
 struct FireState {
     double time_s = 0.0;
-    Raster<std::uint8_t> cell_class;          ///< CellClass
-    Raster<float> arrival_time_s;             ///< first time the cell burned (from the arrival raster when given), NaN = not yet
-    Raster<float> last_burning_time_s;        ///< clock zero of the scar: last time the cell is known to have burned, NaN = never
-    Raster<float> surface_temperature_K;      ///< at time_s: front, scar curve or ambient
-    Raster<float> front_fraction;             ///< area fraction of the cell that flames, 0 outside the front
-    Raster<float> flame_height_m;             ///< eq 4.22 mean over the cell, after the one-sigma rule
-    Raster<float> ember_height_m;             ///< part of the height beyond one sigma, detached above the flame
-    Raster<float> flame_tilt_rad;             ///< from the vertical, 0 = upright
-    Raster<float> flame_azimuth_rad;          ///< direction the flame leans to, clockwise from grid north
-    RunningStatistics height_statistics;      ///< of all frames up to and including this one
+    Raster<std::uint8_t> cell_class;  ///< CellClass
+    Raster<float> arrival_time_s;     ///< first time the cell burned (from the arrival raster when given), NaN = not yet
+    Raster<float> predicted_arrival_time_s;  ///< the arrival raster as given, later times too; no values when none was given
+    Raster<float> last_burning_time_s;  ///< clock zero of the scar: last time the cell is known to have burned, NaN = never
+    Raster<float> surface_temperature_K;  ///< at time_s: front, scar curve or ambient
+    Raster<float> front_fraction;         ///< area fraction of the cell that flames, 0 outside the front
+    Raster<float> flame_height_m;         ///< eq 4.22 mean over the cell, after the one-sigma rule [m]
+    Raster<float> ember_height_m;         ///< part of the height beyond one sigma, detached above the flame
+    Raster<float> flame_tilt_rad;         ///< from the vertical, 0 = upright
+    Raster<float> flame_azimuth_rad;      ///< direction the flame leans to, clockwise from grid north
+    RunningStatistics height_statistics;  ///< of all frames up to and including this one
 };
 
-/// The next state (thesis 6.2, 4.6). `previous` is null for the first frame. Throws an input error when grids differ
-/// or time does not advance.
+/// The next state (thesis 6.2, 4.6). `previous` is null for the first frame.
+///  - Front: heat flux above the threshold. A front cell that burned before burns again and its scar clock starts anew.
+///  - Scar: no front, but it burned in an earlier frame or its arrival time lies at or before this frame, whatever its flux.
+///  - Unburned: everything else, also cells with a flux below the threshold (pre-heat, numerical diffusion).
+///  - NoData: flux not finite in a cell without history.
+/// Fluxes below 1e-3 W m-2 count as zero. Throws an input error when grids differ, time does not advance or a parameter
+/// makes the formulas meaningless.
 FireState advance(const FireState* previous, const FrameInputs& frame, const FireParameters& parameters);
 
 }  // namespace pyroscene::fire
