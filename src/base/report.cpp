@@ -21,6 +21,11 @@ void RunReport::add_time(const std::string& phase, double seconds) {
     timings_s_[phase] += seconds;
 }
 
+void RunReport::record(const std::string& name, double value) {
+    const std::lock_guard lock(mutex_);
+    values_[name] = value;
+}
+
 std::vector<std::string> RunReport::warnings() const {
     const std::lock_guard lock(mutex_);
     return warnings_;
@@ -32,6 +37,10 @@ std::map<std::string, std::int64_t> RunReport::counters() const {
 std::map<std::string, double> RunReport::timings_s() const {
     const std::lock_guard lock(mutex_);
     return timings_s_;
+}
+std::map<std::string, double> RunReport::values() const {
+    const std::lock_guard lock(mutex_);
+    return values_;
 }
 
 }  // namespace pyroscene

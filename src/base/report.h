@@ -18,10 +18,13 @@ public:
     void warn(std::string message);
     void count(const std::string& name, std::int64_t increment);
     void add_time(const std::string& phase, double seconds);
+    /// A physical result worth keeping, unit in the name ("energy/front_power_W").
+    void record(const std::string& name, double value);
 
     [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] std::map<std::string, std::int64_t> counters() const;
     [[nodiscard]] std::map<std::string, double> timings_s() const;
+    [[nodiscard]] std::map<std::string, double> values() const;
 
     /// Called for each warning as it happens (the CLI prints it). May be empty.
     std::function<void(const std::string&)> on_warning;
@@ -30,7 +33,7 @@ private:
     mutable std::mutex mutex_;
     std::vector<std::string> warnings_;
     std::map<std::string, std::int64_t> counters_;
-    std::map<std::string, double> timings_s_;
+    std::map<std::string, double> timings_s_, values_;
 };
 
 /// Adds the wall time of its own life to a phase of the report.

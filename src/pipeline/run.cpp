@@ -1,0 +1,219 @@
+#include "pipeline/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/global_control.h>
+
+#include "base/error.h"
+#include "gis/raster_output.h"
+#include "pipeline/energy.h"
+#include "pipeline/fingerprint.h"
+#include "pipeline/products_phase.h"
+#include "pipeline/render_phase.h"
+#include "pipeline/run_report_file.h"
+#include "pipeline/state_file.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+using scenario::Acquisition;
+using scenario::Scenario;
+
+/// What the phases of one run share.
+struct Session {
+    const Scenario& scenario;
+    const RunOptions& options;
+    RunReport& report;
+    Fingerprints fingerprints;
+    SceneInputs inputs;
+
+    Session(const Scenario& s, const RunOptions& o, RunReport& r)
+        : scenario(s), options(o), report(r), fingerprints(s), inputs(load_scene_inputs(s)) {}
+
+    void stop_if_cancelled() const {
+        if (options.cancelled != nullptr && options.cancelled->load()) throw Cancelled();
+    }
+    [[nodiscard]] Monitor monitor(const std::string& step) const {
+        Monitor m;
+        m.cancelled = options.cancelled;
+        if (options.on_progress) m.progress = [this, step](double f) { options.on_progress(step, f); };
+        return m;
+    }
+    void progress(const std::string& step, double fraction) const {
+        if (options.on_progress) options.on_progress(step, fraction);
+    }
+    [[nodiscard]] std::string utc(double time_s) const { return scenario::UtcTime{scenario.start.unix_s + time_s}.iso8601(); }
+};
+
+bool is_current(const std::filesystem::path& file, const std::string& fingerprint, const RunOptions& options) {
+    if (options.force) return false;
+    const auto metadata = gis::read_metadata(file);
+    if (!metadata) return false;
+    const auto it = metadata->find("FINGERPRINT");
+    return it != metadata->end() && it->second == fingerprint;
+}
+
+std::vector<const Acquisition*> chosen_acquisitions(const Scenario& scenario, const RunOptions& options) {
+    std::vector<const Acquisition*> chosen;
+    for (const auto& a : scenario.acquisitions)
+        if (options.acquisitions.empty() ||
+            std::find(options.acquisitions.begin(), options.acquisitions.end(), a.id) != options.acquisitions.end())
+            chosen.push_back(&a);
+    for (const auto& id : options.acquisitions)
+        if (std::none_of(chosen.begin(), chosen.end(), [&](const auto* a) { return a->id == id; })) {
+            std::vector<std::string> ids;
+            for (const auto& a : scenario.acquisitions) ids.push_back(a.id);
+            throw input_error("--acquisition", fmt::format("the scenario has no '{}'; it has {}", id, fmt::join(ids, ", ")));
+        }
+    return chosen;
+}
+
+/// A scar's clock starts at the frame that shows it burning, unless an arrival raster says better.
+void warn_of_sparse_frames(const Session& s) {
+    if (s.scenario.inputs.arrival) return;
+    double widest = 0.0;
+    for (std::size_t i = 1; i < s.inputs.frames.size(); ++i)
+        widest = std::max(widest, s.inputs.frames[i].time_s - s.inputs.frames[i - 1].time_s);
+    if (widest > s.scenario.fire.scar.time_constant1_s)
+        s.report.warn(fmt::format("frames are up to {:.0f} s apart, more than the scar's time constant ({:.0f} s): give "
+                                  "inputs.arrival to date scars that burned between frames",
+                                  widest, s.scenario.fire.scar.time_constant1_s));
+}
+
+void prepare_phase(Session& s) {
+    const PhaseTimer timer(s.report, "prepare");
+    warn_of_sparse_frames(s);
+    std::optional<fire::FireState> previous;
+    const std::size_t count = s.inputs.frames.size();
+    // The states that are still current need not be made again; work starts from the last one before the first gap.
+    std::size_t first = 0;
+    const auto path_of = [&](std::size_t i) { return state_path(s.options.output, s.inputs.frames[i].time_s); };
+    const auto print_of = [&](std::size_t i) { return s.fingerprints.state(s.inputs.frames[i].time_s); };
+    while (first < count && is_current(path_of(first), print_of(first), s.options)) ++first;
+    s.report.count("states_skipped", static_cast<std::int64_t>(first));
+    if (first == count) return;
+    if (first > 0) previous = read_state(path_of(first - 1), s.inputs.grid, s.inputs.arrival_time_s);
+    for (std::size_t i = first; i < count; ++i) {
+        s.stop_if_cancelled();
+        s.progress("prepare", static_cast<double>(i) / static_cast<double>(count));
+        const auto frame = load_frame(s.scenario, s.inputs, i);
+        auto state = fire::advance(previous ? &*previous : nullptr, frame, s.scenario.fire);
+        write_state(path_of(i), state, print_of(i), s.utc(frame.time_s));
+        previous = std::move(state);
+        s.report.count("states_made", 1);
+    }
+    s.progress("prepare", 1.0);
+}
+
+fire::FireState state_for(const Session& s, const Acquisition& acquisition) {
+    const auto frame = frame_at(s.inputs.frames, acquisition.time_s, acquisition.id);
+    const auto path = state_path(s.options.output, s.inputs.frames[frame].time_s);
+    if (!is_current(path, s.fingerprints.state(s.inputs.frames[frame].time_s), RunOptions{}))
+        throw input_error(path.string(), "no current fire state for this scenario; run 'pyroscene prepare' first");
+    return read_state(path, s.inputs.grid, s.inputs.arrival_time_s);
+}
+
+AcquisitionFiles files_of(const Session& s, const Acquisition& acquisition, const std::string& group, std::size_t group_count) {
+    return {s.options.output / acquisition.id, group_count > 1 ? "_" + group : ""};
+}
+
+void render_acquisition(Session& s, const Acquisition& acquisition, std::optional<render::TerrainMesh>& terrain) {
+    const auto sensor = sensors::load_sensor(acquisition.sensor);
+    const auto groups = wanted_groups(acquisition, sensor);
+    const auto fingerprint = s.fingerprints.image(acquisition);
+    std::optional<fire::FireState> state;
+    std::optional<FireScene> scene;
+    for (const auto& id : groups) {
+        s.stop_if_cancelled();
+        const auto files = files_of(s, acquisition, id, groups.size());
+        if (is_current(files.radiance(), fingerprint, s.options)) {
+            s.report.count("images_skipped", 1);
+            continue;
+        }
+        if (!terrain) terrain.emplace(s.inputs.terrain_m, s.inputs.origin_m);
+        if (!scene) {
+            const PhaseTimer timer(s.report, "render/fire_scene");
+            state = state_for(s, acquisition);
+            scene = make_fire_scene(s.scenario, s.inputs, *state, acquisition.time_s);
+            record_energy(s.report, s.scenario, s.inputs, *state, *scene, acquisition.id);
+        }
+        const GroupJob job{s.scenario, acquisition, s.inputs, *scene, *terrain, sensor, sensor.group(id),
+                           wanted_bands(acquisition, sensor, id), resolve_pose(acquisition, s.inputs, *state), files, fingerprint};
+        render_group(job, s.monitor("render " + acquisition.id), s.report);
+        s.report.count("images_made", 1);
+    }
+}
+
+void render_phase(Session& s) {
+    const PhaseTimer timer(s.report, "render");
+    std::optional<render::TerrainMesh> terrain;
+    for (const auto* acquisition : chosen_acquisitions(s.scenario, s.options)) render_acquisition(s, *acquisition, terrain);
+}
+
+void products_phase(Session& s) {
+    const PhaseTimer timer(s.report, "products");
+    for (const auto* acquisition : chosen_acquisitions(s.scenario, s.options)) {
+        const auto sensor = sensors::load_sensor(acquisition->sensor);
+        const auto groups = wanted_groups(*acquisition, sensor);
+        for (const auto& id : groups) {
+            s.stop_if_cancelled();
+            const auto files = files_of(s, *acquisition, id, groups.size());
+            if (!is_current(files.radiance(), s.fingerprints.image(*acquisition), RunOptions{}))
+                throw input_error(files.radiance().string(),
+                                  "no current radiance for this scenario; run 'pyroscene render' first");
+            const ProductJob job{s.scenario, *acquisition, s.inputs, sensor, sensor.group(id), wanted_bands(*acquisition, sensor, id),
+                                 files, s.fingerprints.product(*acquisition), s.options.force};
+            if (make_products(job, s.options, s.report)) s.report.count("product_sets_made", 1);
+            else s.report.count("product_sets_skipped", 1);
+        }
+    }
+    write_catalog(s.scenario, s.options.output);
+}
+
+/// Runs some phases and writes run.json whatever happens.
+template <class Phases>
+void in_session(const Scenario& scenario, const RunOptions& options, RunReport& report, const Phases& phases) {
+    const auto threads = options.threads > 0 ? static_cast<std::size_t>(options.threads)
+                                             : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    std::optional<Session> session;
+    try {
+        const PhaseTimer timer(report, "total");
+        {
+            const PhaseTimer loading(report, "load_inputs");
+            session.emplace(scenario, options, report);
+        }
+        phases(*session);
+    } catch (const std::exception& e) {
+        write_run_report(scenario, options, report, session ? &session->fingerprints : nullptr, e.what());
+        throw;
+    }
+    write_run_report(scenario, options, report, &session->fingerprints, "");
+}
+
+}  // namespace
+
+void prepare(const Scenario& scenario, const RunOptions& options, RunReport& report) {
+    in_session(scenario, options, report, [](Session& s) { prepare_phase(s); });
+}
+void render(const Scenario& scenario, const RunOptions& options, RunReport& report) {
+    in_session(scenario, options, report, [](Session& s) { render_phase(s); });
+}
+void products(const Scenario& scenario, const RunOptions& options, RunReport& report) {
+    in_session(scenario, options, report, [](Session& s) { products_phase(s); });
+}
+void run(const Scenario& scenario, const RunOptions& options, RunReport& report) {
+    in_session(scenario, options, report, [](Session& s) {
+        prepare_phase(s);
+        render_phase(s);
+        products_phase(s);
+    });
+}
+
+std::string version() { return PYROSCENE_VERSION; }
+
+}  // namespace pyroscene::pipeline

@@ -1,0 +1,143 @@
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/calc.h"
+#include "fire/flame_height.h"
+#include "fire/flame_tilt.h"
+#include "fire/scar.h"
+#include "gis/netcdf_input.h"
+#include "radiometry/atmosphere.h"
+#include "radiometry/planck.h"
+#include "sensors/sensor.h"
+
+namespace pyroscene::cli {
+namespace {
+
+/// Response of a sensor's band, or a boxcar given by lower_um and upper_um.
+Spectrum response_of(const Arguments& a) {
+    if (a.has("lower_um") && a.has("upper_um")) {
+        const double lower = a.number("lower_um"), upper = a.number("upper_um");
+        if (!(lower > 0.0 && upper > lower))
+            throw input_error("--lower_um, --upper_um", fmt::format("need 0 < lower < upper, found {} and {}", lower, upper));
+        return {Quantity::Response, {lower, upper}, {1.0, 1.0}};
+    }
+    // Thousands of CSV rows ask for the same few sensors.
+    static std::map<std::string, sensors::Sensor> cache;
+    const auto id = a.text("sensor");
+    auto known = cache.find(id);
+    if (known == cache.end()) known = cache.emplace(id, sensors::load_sensor(id)).first;
+    const int band = known->second.band_index(a.text("band"));
+    if (band < 0) throw input_error("--band", fmt::format("sensor '{}' has no band '{}'", id, a.text("band")));
+    return known->second.bands[static_cast<std::size_t>(band)].response;
+}
+
+const radiometry::AtmosphereSet& atmosphere_set(const std::string& model, double visibility_km, double elevation_m) {
+    static std::map<std::string, std::unique_ptr<radiometry::AtmosphereSet>> cache;
+    const auto needed = radiometry::needed_files(model, visibility_km, elevation_m);
+    std::string key;
+    for (const auto& n : needed) key += n.file + ";";
+    auto& slot = cache[key];
+    if (!slot) {
+        slot = std::make_unique<radiometry::AtmosphereSet>();
+        for (const auto& n : needed)
+            slot->tables.push_back(radiometry::make_atmosphere_table([&](const std::string& variable) {
+                return gis::read_netcdf_variable(data_folder() / "atmosphere" / n.file, variable).values;
+            }));
+    }
+    return *slot;
+}
+
+std::vector<double> atmosphere(const Arguments& a) {
+    const double visibility_km = a.number("visibility_km"), elevation_m = a.number("ground_elevation_m");
+    const auto& set = atmosphere_set(a.text("model"), visibility_km, elevation_m);
+    radiometry::AtmospherePoint point;
+    point.sensor_altitude_agl_m = a.number("altitude_m");
+    point.view_zenith_rad = a.number("view_zenith_deg") * kDegree_rad;
+    point.sun_zenith_rad = a.number("sun_zenith_deg") * kDegree_rad;
+    point.relative_azimuth_rad = a.number("relative_azimuth_deg") * kDegree_rad;
+    point.visibility_km = visibility_km;
+    point.ground_elevation_m = elevation_m;
+    const auto terms = radiometry::evaluate(set, point);
+    const double lambda_um = a.number("wavelength_um");
+    const auto at = [&](const std::vector<double>& values) {
+        return Spectrum{Quantity::Dimensionless, terms.wavelength_um, values}.at(lambda_um);
+    };
+    if (lambda_um < terms.wavelength_um.front() || lambda_um > terms.wavelength_um.back())
+        throw input_error("--wavelength_um", fmt::format("{} lies outside the table ({} to {} um)", lambda_um,
+                                                         terms.wavelength_um.front(), terms.wavelength_um.back()));
+    return {at(terms.transmittance), at(terms.path_thermal),        at(terms.path_solar),     at(terms.direct_normal_irradiance),
+            at(terms.diffuse_irradiance), at(terms.thermal_irradiance), at(terms.spherical_albedo)};
+}
+
+std::vector<double> flame_height(const Arguments& a) {
+    if (a.text("method") != "heat_flux")
+        throw input_error("--method", fmt::format("'{}' is unknown; there is heat_flux", a.text("method")));
+    return {fire::flame_height_heat_flux_m(a.number("heat_flux_W_m2"), a.number("alpha"), a.number("volumetric_heat_release_W_m3"))};
+}
+
+std::vector<double> flame_tilt(const Arguments& a) {
+    if (a.text("method") != "buoyant_velocity")
+        throw input_error("--method", fmt::format("'{}' is unknown; there is buoyant_velocity", a.text("method")));
+    fire::TiltInputs in;
+    in.wind_m_s = a.number("wind_m_s");
+    in.fireline_intensity_W_m = 1e3 * a.number("fireline_intensity_kW_m");
+    in.air_density_kg_m3 = a.number("air_density_kg_m3");
+    in.air_heat_capacity_J_kg_K = a.number("air_heat_capacity_J_kg_K");
+    in.air_temperature_K = a.number("air_temperature_K");
+    return {fire::flame_tilt_buoyant_velocity_rad(in) / kDegree_rad};
+}
+
+std::vector<double> scar_temperature(const Arguments& a) {
+    const fire::ScarCooling curve{a.number("amplitude1_K"), a.number("time_constant1_s"), a.number("amplitude2_K"),
+                                  a.number("time_constant2_s"), a.number("floor_K")};
+    return {fire::scar_temperature_K(curve, a.number("time_s"))};
+}
+
+}  // namespace
+
+const std::vector<Calculation>& calculations() {
+    static const std::vector<Calculation> table = {
+        {"planck", "spectral radiance of a blackbody", {{"wavelength_um", {}}, {"temperature_K", {}}}, {"radiance_W_m2_sr_um"},
+         [](const Arguments& a) {
+             return std::vector{radiometry::planck_radiance(a.number("wavelength_um"), a.number("temperature_K"))};
+         }},
+        {"brightness-temperature", "temperature of the blackbody with a spectral radiance",
+         {{"wavelength_um", {}}, {"radiance_W_m2_sr_um", {}}}, {"temperature_K"},
+         [](const Arguments& a) {
+             return std::vector{radiometry::brightness_temperature(a.number("wavelength_um"), a.number("radiance_W_m2_sr_um"))};
+         }},
+        {"band-radiance", "response-weighted mean radiance of a blackbody in a sensor band or a boxcar",
+         {{"sensor", {}, true}, {"band", {}, true}, {"lower_um", {}, true}, {"upper_um", {}, true}, {"temperature_K", {}}},
+         {"radiance_W_m2_sr_um"},
+         [](const Arguments& a) { return std::vector{radiometry::band_mean_radiance(a.number("temperature_K"), response_of(a))}; }},
+        {"band-temperature", "temperature of the blackbody with a band radiance",
+         {{"sensor", {}, true}, {"band", {}, true}, {"lower_um", {}, true}, {"upper_um", {}, true}, {"radiance_W_m2_sr_um", {}}},
+         {"temperature_K"},
+         [](const Arguments& a) {
+             return std::vector{radiometry::band_brightness_temperature(a.number("radiance_W_m2_sr_um"), response_of(a))};
+         }},
+        {"atmosphere", "terms of the atmosphere look-up table; altitude above the ground, ground of emissivity 1 and albedo 0",
+         {{"model", "midlatitude_summer"}, {"visibility_km", "23"}, {"altitude_m", {}}, {"view_zenith_deg", "0"}, {"sun_zenith_deg", "45"},
+          {"relative_azimuth_deg", "90"}, {"wavelength_um", {}}, {"ground_elevation_m", "0"}},
+         {"transmittance", "path_thermal_W_m2_sr_um", "path_solar_W_m2_sr_um", "direct_irradiance_W_m2_um", "diffuse_irradiance_W_m2_um",
+          "thermal_irradiance_W_m2_um", "spherical_albedo"},
+         atmosphere},
+        {"flame-height", "flame height from the surface heat flux (thesis eq 4.22)",
+         {{"method", "heat_flux"}, {"heat_flux_W_m2", {}}, {"alpha", "1"}, {"volumetric_heat_release_W_m3", "2e6"},
+          {"cell_area_m2", {}, true}}, {"height_m"}, flame_height},
+        {"flame-tilt", "flame tilt from the vertical by the buoyant velocity (Nelson)",
+         {{"method", "buoyant_velocity"}, {"wind_m_s", {}}, {"fireline_intensity_kW_m", {}}, {"air_density_kg_m3", "1.18"},
+          {"air_heat_capacity_J_kg_K", "1005"}, {"air_temperature_K", "300"}}, {"tilt_deg"}, flame_tilt},
+        {"scar-temperature", "burn scar cooling (thesis eq 4.17, coefficients of eq 4.18)",
+         {{"time_s", {}}, {"amplitude1_K", "578.97"}, {"time_constant1_s", "74.88"}, {"amplitude2_K", "197.5"},
+          {"time_constant2_s", "247.72"}, {"floor_K", "306.34"}}, {"temperature_K"}, scar_temperature},
+    };
+    return table;
+}
+
+}  // namespace pyroscene::cli

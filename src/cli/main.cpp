@@ -1,0 +1,162 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "base/error.h"
+#include "cli/calc.h"
+#include "cli/progress.h"
+#include "cli/sensors_command.h"
+#include "pipeline/run.h"
+
+namespace {
+
+using namespace pyroscene;
+
+enum ExitCode { kDone = 0, kRunTimeFailure = 1, kWrongCommandLine = 2, kRejected = 3 };
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_interrupt(int) {
+    // The first Ctrl-C asks the work to stop between two tiles; a second one does not wait.
+    if (interrupted.exchange(true)) std::_Exit(kRunTimeFailure);
+}
+
+struct Arguments {
+    std::string scenario, output;
+    std::vector<std::string> acquisitions, calc_words;
+    std::string sensor;
+    int threads = 0;
+    bool force = false, quiet = false, json = false, print_schema = false;
+    int verbose = 0;
+};
+
+using Phase = void (*)(const scenario::Scenario&, const pipeline::RunOptions&, RunReport&);
+
+void run_phase(Phase phase, const Arguments& a, const std::string& command_line) {
+    const auto scene = scenario::load(a.scenario);
+    cli::Progress progress(a.quiet);
+    RunReport report;
+    report.on_warning = [&](const std::string& message) {
+        progress.finish();
+        spdlog::warn(message);
+    };
+    pipeline::RunOptions options;
+    options.output = a.output.empty() ? std::filesystem::path("out") / scene.name : std::filesystem::path(a.output);
+    options.output = std::filesystem::absolute(options.output).lexically_normal();
+    options.acquisitions = a.acquisitions;
+    options.threads = a.threads;
+    options.force = a.force;
+    options.command_line = command_line;
+    options.on_progress = [&](const std::string& step, double fraction) { progress.update(step, fraction); };
+    options.cancelled = &interrupted;
+    phase(scene, options, report);
+    progress.finish();
+    for (const auto& [name, seconds] : report.timings_s()) spdlog::debug("{}: {:.3f} s", name, seconds);
+    for (const auto& [name, value] : report.values()) spdlog::debug("{} = {:.6g}", name, value);
+    for (const auto& [name, count] : report.counters()) spdlog::debug("{}: {}", name, count);
+    const auto timings = report.timings_s();
+    if (!a.quiet) fmt::print("{}: done in {:.1f} s, products in {}\n", scene.name, timings.at("total"), options.output.string());
+}
+
+int run_check(const Arguments& a) {
+    if (a.print_schema) {
+        std::cout << scenario::json_schema() << "\n";
+        return kDone;
+    }
+    if (a.scenario.empty()) throw CLI::RequiredError("SCENARIO");
+    const auto result = pipeline::check(scenario::load(a.scenario));
+    for (const auto& warning : result.warnings) spdlog::warn(warning);
+    for (const auto& problem : result.problems) fmt::print(stderr, "{}\n", problem);
+    if (!result.problems.empty()) return kRejected;
+    if (!a.quiet) fmt::print("{}", result.summary);
+    return kDone;
+}
+
+CLI::App* add_phase(CLI::App& app, Arguments& a, const char* name, const char* help) {
+    auto* sub = app.add_subcommand(name, help);
+    sub->add_option("SCENARIO", a.scenario, "scenario file (YAML)")->required();
+    sub->add_option("-o,--output", a.output, "folder for the outputs (default: out/<scenario name>)");
+    sub->add_option("--acquisition", a.acquisitions, "only this acquisition (may be repeated)");
+    sub->add_option("--threads", a.threads, "number of threads (default: all cores)")->check(CLI::Range(1, 1024));
+    sub->add_flag("--force", a.force, "redo finished outputs");
+    sub->footer(fmt::format("Example: pyroscene {} scenarios/minimal/scenario.yaml -o out/minimal", name));
+    return sub;
+}
+
+int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line) {
+    if (app.got_subcommand("run")) run_phase(&pipeline::run, a, command_line);
+    else if (app.got_subcommand("prepare")) run_phase(&pipeline::prepare, a, command_line);
+    else if (app.got_subcommand("render")) run_phase(&pipeline::render, a, command_line);
+    else if (app.got_subcommand("products")) run_phase(&pipeline::products, a, command_line);
+    else if (app.got_subcommand("check")) return run_check(a);
+    else if (app.got_subcommand("sensors")) {
+        if (a.sensor.empty()) cli::list_sensors(a.json);
+        else cli::show_sensor(a.sensor, a.json);
+    } else if (app.got_subcommand("calc")) cli::run_calc(app.get_subcommand("calc")->remaining());
+    return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    auto logger = spdlog::stderr_color_mt("pyroscene");
+    spdlog::set_default_logger(logger);
+    spdlog::set_pattern("%^%l%$: %v");
+
+    CLI::App app("Synthetic remote-sensing images of wildland fires from georeferenced rasters.", "pyroscene");
+    app.set_version_flag("--version", "pyroscene " + pipeline::version());
+    app.require_subcommand(1);
+    app.fallthrough();
+    Arguments a;
+    app.add_flag("-q,--quiet", a.quiet, "print errors and warnings only");
+    app.add_flag("-v,--verbose", a.verbose, "print timings, counters and the energy budget");
+    add_phase(app, a, "run", "the main job: prepare, render and products");
+    add_phase(app, a, "prepare", "fire states of all frames, in order");
+    add_phase(app, a, "render", "radiance, geolocation and truth of the acquisitions");
+    add_phase(app, a, "products", "brightness temperature, ortho images, maps and pictures");
+    auto* check = app.add_subcommand("check", "everything that is wrong with a scenario, and what it would cost");
+    check->add_option("SCENARIO", a.scenario, "scenario file (YAML)");
+    check->add_flag("--print-schema", a.print_schema, "print the JSON Schema of scenario files");
+    check->footer("Example: pyroscene check scenarios/lolo_peak/scenario.yaml");
+    auto* sensor = app.add_subcommand("sensors", "list the sensors, or show one in full");
+    sensor->add_option("ID", a.sensor, "sensor id, or the path of a sensor file");
+    sensor->add_flag("--json", a.json, "machine-readable output");
+    sensor->footer("Example: pyroscene sensors wasp");
+    auto* calc = app.add_subcommand("calc", "one formula or table look-up; with --csv, every row of a table");
+    calc->prefix_command();
+    calc->footer("pyroscene calc NAME [--option value ...] | --csv IN.csv [-o OUT.csv]\n" + cli::calc_help() +
+                 "Example: pyroscene calc planck --wavelength_um 4 --temperature_K 1100");
+
+    std::string command_line;
+    for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    try {
+        app.parse(argc, argv);
+        spdlog::set_level(a.quiet ? spdlog::level::warn : a.verbose > 0 ? spdlog::level::debug : spdlog::level::info);
+        return dispatch(app, a, command_line);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? kDone : kWrongCommandLine;
+    } catch (const std::invalid_argument& e) {
+        fmt::print(stderr, "{}\n", e.what());
+        return kWrongCommandLine;
+    } catch (const Cancelled&) {
+        fmt::print(stderr, "\ninterrupted; finished outputs are kept, run the same command again to go on\n");
+        return kRunTimeFailure;
+    } catch (const Error& e) {
+        fmt::print(stderr, "{}\n", e.what());
+        return e.kind() == ErrorKind::Input ? kRejected : kRunTimeFailure;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "unexpected failure: {}\n", e.what());
+        return kRunTimeFailure;
+    }
+}

@@ -1,0 +1,193 @@
+#include "pipeline/acquisition.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "gis/netcdf_input.h"
+#include "radiometry/atmosphere.h"
+#include "radiometry/soot.h"
+#include "radiometry/surfaces.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+using scenario::Acquisition;
+using scenario::Scenario;
+
+std::string subject(const Acquisition& a) { return fmt::format("acquisition '{}'", a.id); }
+
+/// Map place the platform is over.
+std::array<double, 2> place(const Acquisition& acquisition, const SceneInputs& in, const fire::FireState& state,
+                            const gis::MapProjection& map) {
+    const auto& p = acquisition.platform;
+    if (p.map_xy_m) return *p.map_xy_m;
+    if (p.lat_lon_deg) return map.to_map((*p.lat_lon_deg)[0], (*p.lat_lon_deg)[1]);
+    if (!p.over_fire) return {in.origin_m.x, in.origin_m.y};
+    double x = 0.0, y = 0.0, n = 0.0;
+    for (int row = 0; row < in.grid.rows; ++row)
+        for (int col = 0; col < in.grid.cols; ++col)
+            if (state.cell_class.at(row, col) == static_cast<std::uint8_t>(fire::CellClass::Front)) {
+                x += in.grid.x_centre_m(col);
+                y += in.grid.y_centre_m(row);
+                n += 1.0;
+            }
+    if (n == 0.0)
+        throw input_error(subject(acquisition), fmt::format("platform.over: fire, but nothing burns at {} s", state.time_s));
+    return {x / n, y / n};
+}
+
+radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, double ground_elevation_m) {
+    const auto& source = scenario.atmosphere;
+    const auto read_table = [](const std::filesystem::path& file) {
+        return radiometry::make_atmosphere_table(
+            [&](const std::string& variable) { return gis::read_netcdf_variable(file, variable).values; });
+    };
+    radiometry::AtmosphereSet set;
+    if (source.file) {
+        set.tables.push_back(read_table(*source.file));
+        return set;
+    }
+    for (const auto& needed : radiometry::needed_files(source.model, source.visibility_km, ground_elevation_m))
+        set.tables.push_back(read_table(data_folder() / "atmosphere" / needed.file));
+    return set;
+}
+
+}  // namespace
+
+sensors::Pose resolve_pose(const Acquisition& acquisition, const SceneInputs& in, const fire::FireState& state) {
+    const gis::MapProjection map(in.grid.crs_wkt);
+    const auto [x, y] = place(acquisition, in, state, map);
+    const auto& p = acquisition.platform;
+    sensors::Pose pose;
+    pose.time_s = acquisition.time_s;
+    pose.heading_rad = p.heading_deg * kDegree_rad;
+    pose.pitch_rad = p.pitch_deg * kDegree_rad;
+    pose.roll_rad = p.roll_deg * kDegree_rad;
+    const int col = static_cast<int>(std::floor(in.grid.col_at(x))), row = static_cast<int>(std::floor(in.grid.row_at(y)));
+    const bool on_map = in.grid.contains(row, col) && !std::isnan(in.terrain_m.at(row, col));
+    const double ground_m = on_map ? in.terrain_m.at(row, col) : in.mean_height_m;
+    double height_m = 0.0;
+    if (p.altitude_m) {
+        height_m = *p.altitude_m;
+    } else {
+        if (!on_map)
+            throw input_error(subject(acquisition), "platform.altitude_agl_m needs terrain below the platform, but it is outside "
+                                                    "the map; give altitude_m (above the ellipsoid)");
+        height_m = ground_m + *p.altitude_agl_m;
+    }
+    if (on_map && height_m <= ground_m)
+        throw input_error(subject(acquisition), fmt::format("platform is at {:.0f} m, below the terrain there ({:.0f} m)",
+                                                            height_m, ground_m));
+    pose.position = map.to_geodetic(x, y, height_m);
+    return pose;
+}
+
+std::vector<int> wanted_bands(const Acquisition& acquisition, const sensors::Sensor& sensor, const std::string& group) {
+    auto bands = sensor.bands_of(group);
+    if (acquisition.bands.empty()) return bands;
+    std::erase_if(bands, [&](int b) {
+        const auto& id = sensor.bands[static_cast<std::size_t>(b)].id;
+        return std::find(acquisition.bands.begin(), acquisition.bands.end(), id) == acquisition.bands.end();
+    });
+    return bands;
+}
+
+std::vector<std::string> wanted_groups(const Acquisition& acquisition, const sensors::Sensor& sensor) {
+    if (sensor.scan != sensors::ScanType::Framing)
+        throw input_error(subject(acquisition),
+                          fmt::format("sensor '{}' is no framing camera; only framing cameras can be rendered", sensor.id));
+    for (const auto& id : acquisition.bands)
+        if (sensor.band_index(id) < 0) {
+            std::vector<std::string> ids;
+            for (const auto& band : sensor.bands) ids.push_back(band.id);
+            throw input_error(subject(acquisition),
+                              fmt::format("sensor '{}' has no band '{}'; it has {}", sensor.id, id, fmt::join(ids, ", ")));
+        }
+    for (const auto& id : acquisition.groups) (void)sensor.group(id);
+    std::vector<std::string> groups;
+    for (const auto& group : sensor.groups) {
+        const bool asked = acquisition.groups.empty() || std::find(acquisition.groups.begin(), acquisition.groups.end(),
+                                                                   group.id) != acquisition.groups.end();
+        if (asked && !wanted_bands(acquisition, sensor, group.id).empty()) groups.push_back(group.id);
+    }
+    if (groups.empty()) throw input_error(subject(acquisition), "no band is left to render");
+    return groups;
+}
+
+FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const fire::FireState& state, double time_s) {
+    const auto& voxel_m = scenario.flame.parameters.voxel_m;
+    // Fine cells about as large as a voxel, so that a front narrower than a map cell is one in the image too.
+    const bool fine = scenario.physics == fire::Physics::Default;
+    const double fine_m = std::max(voxel_m[0], voxel_m[1]);
+    const int refinement = fine ? std::clamp(static_cast<int>(std::lround(in.grid.cell_m / fine_m)), 1, 16) : 1;
+    FireScene scene;
+    scene.surface = fire::surface_at(state, time_s, scenario.fire, refinement);
+    if (scenario.flame.off) return scene;
+    const auto columns = fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters, in.origin_m);
+    scene.flame = fire::voxelise(columns, scenario.flame.parameters);
+    return scene;
+}
+
+SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& in, const std::vector<Spectrum>& responses,
+                                  double sensor_agl_m, const radiometry::SunPosition& sun, RunReport& report) {
+    SpectralScene out;
+    out.grid = radiometry::make_spectral_grid(responses);
+    const int n = out.grid.size();
+    auto& optics = out.optics;
+    optics.lambda_count = n;
+    optics.lambda_um = out.grid.lambda_um;
+
+    const auto soot = radiometry::load_soot_optics(data_folder() / "optical" / "soot_optics.csv");
+    optics.grey = scenario.flame.grey_absorption_per_m.has_value();
+    for (const double lambda_um : optics.lambda_um)
+        optics.flame_absorption_per_m.push_back(static_cast<float>(
+            optics.grey ? *scenario.flame.grey_absorption_per_m
+                        : radiometry::soot_absorption_per_m(soot, lambda_um, scenario.flame.soot_volume_fraction)));
+
+    const auto library = radiometry::load_surfaces(data_folder() / "optical" / "surface_reflectance.csv");
+    auto names = in.cover_names;
+    names.push_back(scenario.surface.burned);
+    optics.material_count = static_cast<int>(names.size());
+    optics.burnt_material = optics.material_count - 1;
+    for (const auto& name : names) {
+        const auto& reflectance = library.reflectance[static_cast<std::size_t>(library.index_of(name))];
+        for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+            const double lower = out.grid.cell_lower_um[i], upper = out.grid.cell_upper_um[i];
+            const double value = scenario.surface.emissivity ? 1.0 - *scenario.surface.emissivity
+                                 : upper > lower             ? mean_over(reflectance, lower, upper)
+                                                             : reflectance.at(optics.lambda_um[i]);
+            optics.reflectance.push_back(static_cast<float>(value));
+        }
+    }
+    if (scenario.atmosphere.model == "none" && !scenario.atmosphere.file) {
+        out.atmosphere = radiometry::vacuum(n);
+        return out;
+    }
+    // The surroundings that scatter light into the view are the unburnt covers of the map, weighted by area.
+    std::vector<double> albedo(static_cast<std::size_t>(n), 0.0), share(names.size(), 0.0);
+    for (const auto material : in.cover.values) share[material] += 1.0 / static_cast<double>(in.cover.values.size());
+    for (std::size_t m = 0; m < names.size(); ++m)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+            albedo[i] += share[m] * optics.reflectance[m * static_cast<std::size_t>(n) + i];
+
+    radiometry::AtmosphereConditions conditions;
+    conditions.sensor_altitude_agl_m = sensor_agl_m;
+    conditions.ground_elevation_m = scenario.atmosphere.ground_elevation_m.value_or(in.mean_height_m);
+    conditions.visibility_km = scenario.atmosphere.visibility_km;
+    conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
+    conditions.sun_distance_AU = sun.distance_AU;
+    const auto set = load_atmosphere(scenario, conditions.ground_elevation_m);
+    out.atmosphere = radiometry::make_view_atmosphere(set, conditions, out.grid, albedo);
+    if (scenario.render.sun && sun.zenith_rad > 75.0 * kDegree_rad && sun.zenith_rad < 90.0 * kDegree_rad)
+        report.warn(fmt::format("sun zenith {:.1f} deg is beyond the atmosphere table (75 deg): solar terms use 75 deg",
+                                sun.zenith_rad / kDegree_rad));
+    return out;
+}
+
+}  // namespace pyroscene::pipeline

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/report.h"
+#include "fire/flame_field.h"
+#include "pipeline/scene_inputs.h"
+#include "radiometry/spectral_grid.h"
+#include "radiometry/sun.h"
+#include "radiometry/view_atmosphere.h"
+#include "render/scene.h"
+#include "sensors/framing.h"
+
+namespace pyroscene::pipeline {
+
+/// Pose of an acquisition's platform, from its place over the map and the terrain (or the fire) below.
+/// Throws an input error: place outside the map, altitude below the terrain.
+sensors::Pose resolve_pose(const scenario::Acquisition& acquisition, const SceneInputs& inputs, const fire::FireState& state);
+
+/// Bands of one camera group that the acquisition asks for, as positions in Sensor::bands. May be empty.
+std::vector<int> wanted_bands(const scenario::Acquisition& acquisition, const sensors::Sensor& sensor, const std::string& group);
+
+/// Groups of the sensor that the acquisition asks for and that have wanted bands. Throws an input error for unknown names and
+/// for scan types without geometry.
+std::vector<std::string> wanted_groups(const scenario::Acquisition& acquisition, const sensors::Sensor& sensor);
+
+/// The fire as a camera sees it at one moment, free of any sensor.
+struct FireScene {
+    fire::SurfaceField surface;
+    fire::FlameField flame;
+};
+FireScene make_fire_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const fire::FireState& state, double time_s);
+
+/// Everything spectral of one camera group.
+struct SpectralScene {
+    radiometry::SpectralGrid grid;
+    render::SceneOptics optics;
+    radiometry::ViewAtmosphere atmosphere;
+};
+/// \param sensor_agl_m sensor height above the mean terrain  \param sun position at the scene centre
+SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const std::vector<Spectrum>& responses,
+                                  double sensor_agl_m, const radiometry::SunPosition& sun, RunReport& report);
+
+}  // namespace pyroscene::pipeline

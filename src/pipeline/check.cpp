@@ -1,0 +1,94 @@
+#include <cmath>
+#include <functional>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "pipeline/acquisition.h"
+#include "pipeline/run.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+using scenario::Scenario;
+
+/// Runs one test; what it throws as a refusal of input becomes a problem.
+bool passes(CheckResult& result, const std::function<void()>& test) {
+    try {
+        test();
+        return true;
+    } catch (const Error& e) {
+        result.problems.emplace_back(e.what());
+        return false;
+    }
+}
+
+/// Every raster for itself, so that all problems show at once even when the terrain is fine and others are not.
+void check_rasters(const Scenario& s, const SceneInputs& in, CheckResult& result) {
+    for (std::size_t i = 0; i < in.frames.size(); ++i)
+        if (!passes(result, [&] { (void)load_frame(s, in, i); })) break;
+    if (s.inputs.fuel_load) {
+        const auto& fuel = *s.inputs.fuel_load;
+        passes(result, [&] {
+            (void)gis::read_band({fuel.files.front(), fuel.bands.empty() ? 1 : fuel.bands.front(), gis::Resampling::Conserve,
+                                  "fuel load", "kg m-2"},
+                                 in.grid);
+        });
+    }
+}
+
+/// Nominal cost of a ray and of a ray times wavelength, one core of an ordinary machine [s]; docs/physics-render.md measures them.
+constexpr double kRay_s = 1.0e-6, kRayWavelength_s = 1.0e-8, kPixelWavelength_s = 2.0e-8;
+
+std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const scenario::Acquisition& a, double& seconds) {
+    const auto sensor = sensors::load_sensor(a.sensor);
+    std::string out;
+    const std::size_t frame = frame_at(in.frames, a.time_s, a.id);
+    for (const auto& id : wanted_groups(a, sensor)) {
+        const auto& group = sensor.group(id);
+        std::vector<Spectrum> responses;
+        for (const int b : wanted_bands(a, sensor, id)) responses.push_back(sensor.bands[static_cast<std::size_t>(b)].response);
+        const auto grid = radiometry::make_spectral_grid(responses);
+        const bool point = sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;
+        const double rays_per_pixel = point ? 1.0 : s.render.samples_per_axis * s.render.samples_per_axis;
+        const double pixels = static_cast<double>(group.samples) * group.lines, n = grid.size();
+        seconds += pixels * (rays_per_pixel * (kRay_s + kRayWavelength_s * n) + kPixelWavelength_s * n);
+        // Radiance, terms and truth in memory once, and once more while they are written.
+        const double megabytes = 2.0 * pixels * 4.0 * (static_cast<double>(responses.size()) * 11.0 + 16.0) / 1e6;
+        out += fmt::format("  {}: {} group {}, {} x {} pixels, {} bands on {} transport wavelengths, {:.0f} rays per pixel, "
+                           "fire state of {:g} s, about {:.0f} MB\n",
+                           a.id, sensor.id, id, group.samples, group.lines, responses.size(), grid.size(), rays_per_pixel,
+                           in.frames[frame].time_s, megabytes);
+    }
+    return out;
+}
+
+}  // namespace
+
+CheckResult check(const Scenario& scenario) {
+    CheckResult result;
+    SceneInputs in;
+    if (!passes(result, [&] { in = load_scene_inputs(scenario); })) {
+        // The frames can still be looked at by themselves.
+        const auto before = result.problems;
+        passes(result, [&] { (void)heat_flux_frames(scenario.inputs.heat_flux); });
+        if (result.problems.size() > 1 && result.problems.back() == before.front()) result.problems.pop_back();
+        return result;
+    }
+    check_rasters(scenario, in, result);
+    double seconds = 0.0;
+    std::string acquisitions;
+    for (const auto& a : scenario.acquisitions)
+        passes(result, [&] { acquisitions += acquisition_summary(scenario, in, a, seconds); });
+    if (!result.problems.empty()) return result;
+    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+    result.summary = fmt::format(
+        "{}: ready to run\n  map: {} x {} cells of {:g} m, terrain {:.0f} to {:.0f} m, centre {:.4f} N {:.4f} E\n  frames: {} ({:g} s to {:g} s)\n{}"
+        "  estimated rendering time: {:.1f} s on {} cores\n",
+        scenario.name, in.grid.cols, in.grid.rows, in.grid.cell_m, in.lowest_m, in.highest_m, in.centre.lat_deg, in.centre.lon_deg,
+        in.frames.size(), in.frames.front().time_s, in.frames.back().time_s, acquisitions, seconds / cores, cores);
+    return result;
+}
+
+}  // namespace pyroscene::pipeline

@@ -1,0 +1,320 @@
+#include "pipeline/products_phase.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/ortho.h"
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "gis/raster_output.h"
+#include "gis/vector_output.h"
+#include "pipeline/quicklook.h"
+#include "pipeline/stac.h"
+#include "pipeline/state_file.h"
+#include "radiometry/planck.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+/// Positions of the planes in geolocation.tif.
+enum GeolocationPlane { kLongitude, kLatitude, kHeight, kViewZenith, kViewAzimuth, kSunZenith, kSunAzimuth };
+/// Positions of the planes in truth.tif that products use.
+enum TruthPlane { kFlame, kFront, kScar, kBackground, kSmoke, kGroundTemperature, kFlameTemperature, kExitance };
+
+/// One rendered group read back, with its pixels on the map.
+struct Rendered {
+    int samples = 0, lines = 0;
+    std::size_t n = 0;
+    gis::ImageFile radiance, geolocation;
+    std::optional<gis::ImageFile> truth;
+    std::vector<double> x_m, y_m;
+    double gsd_m = 0.0;
+    std::vector<float> pixel_area_m2;
+
+    [[nodiscard]] std::span<const double> where(GeolocationPlane p) const { return std::span(geolocation.pixels).subspan(p * n, n); }
+    [[nodiscard]] std::vector<float> truth_plane(std::size_t p) const {
+        return {truth->pixels.begin() + static_cast<std::ptrdiff_t>(p * n), truth->pixels.begin() + static_cast<std::ptrdiff_t>((p + 1) * n)};
+    }
+    [[nodiscard]] std::vector<float> radiance_plane(std::size_t band) const {
+        return {radiance.pixels.begin() + static_cast<std::ptrdiff_t>(band * n),
+                radiance.pixels.begin() + static_cast<std::ptrdiff_t>((band + 1) * n)};
+    }
+};
+
+/// Ground area of each pixel from its neighbours (central differences), and the median pixel size.
+void measure_pixels(Rendered& r) {
+    r.pixel_area_m2.assign(r.n, std::nanf(""));
+    std::vector<float> valid;
+    for (int line = 0; line < r.lines; ++line)
+        for (int sample = 0; sample < r.samples; ++sample) {
+            const auto at = [&](int s, int l) { return static_cast<std::size_t>(l) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(s); };
+            const int s0 = std::max(sample - 1, 0), s1 = std::min(sample + 1, r.samples - 1);
+            const int l0 = std::max(line - 1, 0), l1 = std::min(line + 1, r.lines - 1);
+            if (s1 == s0 || l1 == l0) continue;
+            const std::size_t a = at(s0, line), b = at(s1, line), c = at(sample, l0), d = at(sample, l1);
+            const double ux = (r.x_m[b] - r.x_m[a]) / (s1 - s0), uy = (r.y_m[b] - r.y_m[a]) / (s1 - s0);
+            const double vx = (r.x_m[d] - r.x_m[c]) / (l1 - l0), vy = (r.y_m[d] - r.y_m[c]) / (l1 - l0);
+            const auto area = static_cast<float>(std::abs(ux * vy - uy * vx));
+            if (!std::isfinite(area)) continue;
+            r.pixel_area_m2[at(sample, line)] = area;
+            valid.push_back(area);
+        }
+    if (valid.empty()) return;
+    const auto middle = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() / 2);
+    std::nth_element(valid.begin(), middle, valid.end());
+    r.gsd_m = std::sqrt(*middle);
+}
+
+Rendered read_rendered(const ProductJob& job) {
+    Rendered r;
+    r.radiance = gis::read_image(job.files.radiance());
+    r.geolocation = gis::read_image(job.files.geolocation());
+    if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth());
+    r.samples = r.radiance.cols;
+    r.lines = r.radiance.rows;
+    r.n = static_cast<std::size_t>(r.samples) * static_cast<std::size_t>(r.lines);
+    r.x_m.assign(r.where(kLongitude).begin(), r.where(kLongitude).end());
+    r.y_m.assign(r.where(kLatitude).begin(), r.where(kLatitude).end());
+    gis::MapProjection(job.inputs.grid.crs_wkt).to_map(r.x_m, r.y_m);
+    measure_pixels(r);
+    return r;
+}
+
+/// A named multi-band product in sensor geometry; its ortho is the same bands on the map.
+struct Product {
+    std::string stem;
+    std::vector<gis::OutputBand> bands;
+    std::vector<float> pixels;  ///< [band][line][sample]
+    bool in_sensor_geometry = true;
+};
+
+Product brightness_product(const ProductJob& job, const Rendered& r) {
+    Product p{"brightness_temperature", {}, {}};
+    for (std::size_t k = 0; k < job.bands.size(); ++k) {
+        const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
+        const radiometry::BandThermometer thermometer(band.response);
+        p.bands.push_back({band.id + " brightness temperature", "K", band.centre_um, band.fwhm_um, {{"band_id", band.id}}});
+        for (std::size_t i = 0; i < r.n; ++i) p.pixels.push_back(static_cast<float>(thermometer.temperature_K(r.radiance.pixels[k * r.n + i])));
+    }
+    return p;
+}
+
+Product fractions_product(const Rendered& r) {
+    Product p{"fractions", {}, {}};
+    for (std::size_t k = kFlame; k <= kSmoke; ++k) {
+        p.bands.push_back({r.truth->bands[k].description, "1", {}, {}, {}});
+        const auto plane = r.truth_plane(k);
+        p.pixels.insert(p.pixels.end(), plane.begin(), plane.end());
+    }
+    return p;
+}
+
+Product frp_product(const Rendered& r) {
+    Product p{"frp", {{"fire radiative power per area", "W m-2", {}, {}, {}}, {"fire radiative power of the pixel", "MW", {}, {}, {}}}, {}};
+    p.pixels = r.truth_plane(kExitance);
+    for (std::size_t i = 0; i < r.n; ++i) p.pixels.push_back(p.pixels[i] * r.pixel_area_m2[i] * 1e-6F);
+    return p;
+}
+
+Product radiance_product(const Rendered& r) {
+    Product p{"radiance", r.radiance.bands, {r.radiance.pixels.begin(), r.radiance.pixels.end()}, false};
+    return p;
+}
+
+gis::OutputRaster raster_of(const ProductJob& job, const Product& product) {
+    gis::OutputRaster out;
+    out.bands = product.bands;
+    out.acquisition_time = scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
+    out.metadata = {{"SCENARIO", job.scenario.name}, {"ACQUISITION", job.acquisition.id}, {"SENSOR", job.sensor.id},
+                    {"CAMERA_GROUP", job.group.id},  {"FINGERPRINT", job.fingerprint}};
+    return out;
+}
+
+void write_sensor_geometry(const ProductJob& job, const Rendered& r, const Product& product) {
+    auto out = raster_of(job, product);
+    out.cols = r.samples;
+    out.rows = r.lines;
+    out.geolocation = job.files.geolocation();
+    gis::write_geotiff(job.files.file(product.stem), out, std::span<const float>(product.pixels));
+}
+
+void write_ortho(const ProductJob& job, const Rendered& r, const Product& product, const analysis::OrthoLookup& lookup) {
+    auto out = raster_of(job, product);
+    out.grid = lookup.grid;
+    out.cols = lookup.grid.cols;
+    out.rows = lookup.grid.rows;
+    std::vector<float> pixels;
+    pixels.reserve(product.bands.size() * lookup.grid.size());
+    for (std::size_t k = 0; k < product.bands.size(); ++k) {
+        const auto plane = analysis::ortho_resample(lookup, r.samples, r.lines, std::span(product.pixels).subspan(k * r.n, r.n), false);
+        pixels.insert(pixels.end(), plane.begin(), plane.end());
+    }
+    gis::write_cog(job.files.file("ortho_" + product.stem), out, std::span<const float>(pixels));
+}
+
+/// One point per pixel with flame or front in it.
+void write_fire_pixels(const ProductJob& job, const Rendered& r, const Product& frp) {
+    using Json = nlohmann::ordered_json;
+    Json features = Json::array();
+    const auto flame = r.truth_plane(kFlame), front = r.truth_plane(kFront);
+    const auto round_to = [](double v, double step) { return std::round(v / step) * step; };
+    for (std::size_t i = 0; i < r.n; ++i) {
+        constexpr double kSmallest = 1e-3;
+        if (!(flame[i] + front[i] > kSmallest)) continue;
+        const double power_MW = frp.pixels[r.n + i];
+        features.push_back({{"type", "Feature"},
+                            {"geometry",
+                             {{"type", "Point"},
+                              {"coordinates", {round_to(r.where(kLongitude)[i], 1e-7), round_to(r.where(kLatitude)[i], 1e-7)}}}},
+                            {"properties",
+                             {{"sample", i % static_cast<std::size_t>(r.samples)},
+                              {"line", i / static_cast<std::size_t>(r.samples)},
+                              {"frp_MW", std::isfinite(power_MW) ? Json(round_to(power_MW, 1e-6)) : Json(nullptr)},
+                              {"flame_fraction", round_to(flame[i], 1e-4)},
+                              {"front_fraction", round_to(front[i], 1e-4)}}}});
+    }
+    const Json collection = {{"type", "FeatureCollection"},
+                             {"name", job.acquisition.id + " fire pixels (synthetic)"},
+                             {"synthetic", true},
+                             {"datetime", scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601()},
+                             {"features", features}};
+    write_text_file(job.files.folder / ("fire_pixels" + job.files.suffix + ".geojson"), collection.dump() + "\n");
+}
+
+void write_perimeter(const ProductJob& job, const std::filesystem::path& output) {
+    const auto frame = frame_at(job.inputs.frames, job.acquisition.time_s, job.acquisition.id);
+    const auto state = read_state(state_path(output, job.inputs.frames[frame].time_s), job.inputs.grid, {});
+    Raster<std::uint8_t> burned(job.inputs.grid, "burned", "1");
+    for (std::size_t i = 0; i < burned.values.size(); ++i)
+        burned.values[i] = state.cell_class.values[i] == 1 || state.cell_class.values[i] == 2 ? 1 : 0;
+    gis::write_polygons(job.files.folder / ("perimeter" + job.files.suffix + ".geojson"), burned,
+                        {{"name", job.scenario.name}, {"acquisition", job.acquisition.id},
+                         {"datetime", scenario::UtcTime{job.scenario.start.unix_s + state.time_s}.iso8601()},
+                         {"map_method", "Modeled"}, {"synthetic", "true"}});
+}
+
+void write_picture(const ProductJob& job, const Rendered& r, const Product& brightness) {
+    constexpr std::size_t kMostPanels = 4;
+    std::vector<QuicklookPanel> panels;
+    const std::size_t step = (job.bands.size() + kMostPanels - 1) / kMostPanels;
+    for (std::size_t k = 0; k < job.bands.size(); k += step) {
+        const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
+        panels.push_back({fmt::format("{} {:.2f} um radiance", band.id, band.centre_um), "W/(m2 sr um)", r.samples, r.lines,
+                          r.radiance_plane(k), true});
+    }
+    // The longest wavelength also as temperature, if it is thermal.
+    std::size_t warmest = 0;
+    for (std::size_t k = 0; k < job.bands.size(); ++k)
+        if (job.sensor.bands[static_cast<std::size_t>(job.bands[k])].centre_um >
+            job.sensor.bands[static_cast<std::size_t>(job.bands[warmest])].centre_um)
+            warmest = k;
+    const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[warmest])];
+    constexpr double kThermal_um = 3.0;
+    if (job.scenario.products.brightness_temperature && band.centre_um > kThermal_um && panels.size() < kMostPanels) {
+        const auto first = brightness.pixels.begin() + static_cast<std::ptrdiff_t>(warmest * r.n);
+        panels.push_back({band.id + " brightness temperature", "K", r.samples, r.lines,
+                          {first, first + static_cast<std::ptrdiff_t>(r.n)}, false});
+    }
+    const auto caption = fmt::format("{}  {}  {}  {}  SYNTHETIC", job.scenario.name, job.acquisition.id, job.sensor.id,
+                                     scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601());
+    write_quicklook(job.files.folder / ("quicklook" + job.files.suffix + ".png"), caption, panels, r.gsd_m);
+}
+
+std::vector<std::array<double, 2>> footprint(const Rendered& r) {
+    // Along the image's rim, eight points a side, skipping pixels that see nothing; then counter-clockwise.
+    std::vector<std::array<double, 2>> ring;
+    constexpr int kPerSide = 8;
+    const auto add = [&](int sample, int line) {
+        const std::size_t i = static_cast<std::size_t>(line) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(sample);
+        if (!std::isnan(r.where(kLongitude)[i])) ring.push_back({r.where(kLongitude)[i], r.where(kLatitude)[i]});
+    };
+    for (int k = 0; k < kPerSide; ++k) add(k * (r.samples - 1) / kPerSide, 0);
+    for (int k = 0; k < kPerSide; ++k) add(r.samples - 1, k * (r.lines - 1) / kPerSide);
+    for (int k = 0; k < kPerSide; ++k) add(r.samples - 1 - k * (r.samples - 1) / kPerSide, r.lines - 1);
+    for (int k = 0; k < kPerSide; ++k) add(0, r.lines - 1 - k * (r.lines - 1) / kPerSide);
+    double twice_area = 0.0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const auto& a = ring[i];
+        const auto& b = ring[(i + 1) % ring.size()];
+        twice_area += a[0] * b[1] - b[0] * a[1];
+    }
+    if (twice_area < 0.0) std::reverse(ring.begin(), ring.end());
+    if (!ring.empty()) ring.push_back(ring.front());
+    return ring;
+}
+
+/// A round ortho cell near the pixel size: two significant digits.
+double ortho_cell_m(double gsd_m) {
+    const double unit = std::pow(10.0, std::floor(std::log10(gsd_m)) - 1.0);
+    return std::round(gsd_m / unit) * unit;
+}
+
+StacImage stac_image(const ProductJob& job, const Rendered& r, const MapGrid& grid) {
+    StacImage image;
+    image.footprint_lon_lat = footprint(r);
+    image.gsd_m = std::round(r.gsd_m * 100.0) / 100.0;
+    image.ortho_grid = grid;
+    const std::size_t centre = static_cast<std::size_t>(r.lines / 2) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(r.samples / 2);
+    const auto finite_or_zero = [](double v) { return std::isfinite(v) ? v : 0.0; };
+    image.off_nadir_deg = finite_or_zero(r.where(kViewZenith)[centre]);
+    image.sun_azimuth_deg = finite_or_zero(r.where(kSunAzimuth)[centre]);
+    image.sun_elevation_deg = finite_or_zero(90.0 - r.where(kSunZenith)[centre]);
+    for (const auto& entry : std::filesystem::directory_iterator(job.files.folder)) {
+        const auto name = entry.path().filename().string();
+        const bool mine = job.files.suffix.empty() || entry.path().stem().string().ends_with(job.files.suffix);
+        if (entry.is_regular_file() && mine && !name.starts_with(".") && !name.starts_with("item")) image.assets.push_back(entry.path());
+    }
+    std::sort(image.assets.begin(), image.assets.end());
+    return image;
+}
+
+}  // namespace
+
+bool make_products(const ProductJob& job, const RunOptions& options, RunReport& report) {
+    const auto item = stac_item_path(job.files);
+    if (!job.force && stac_item_fingerprint(item) == job.fingerprint) return false;
+    const auto& wanted = job.scenario.products;
+    const auto step = "products " + job.acquisition.id;
+    const auto stage = [&](double fraction) {
+        if (options.cancelled != nullptr && options.cancelled->load()) throw Cancelled();
+        if (options.on_progress) options.on_progress(step, fraction);
+    };
+    stage(0.0);
+    const auto r = read_rendered(job);
+    std::vector<Product> made;
+    made.push_back(brightness_product(job, r));
+    if (!wanted.brightness_temperature) made.back().stem.clear();
+    if (wanted.fractions && r.truth) made.push_back(fractions_product(r));
+    if (wanted.frp && r.truth) made.push_back(frp_product(r));
+    for (const auto& product : made)
+        if (!product.stem.empty()) write_sensor_geometry(job, r, product);
+    stage(0.3);
+    if (wanted.frp && r.truth) {
+        write_fire_pixels(job, r, made.back());
+        write_perimeter(job, options.output);
+    }
+    MapGrid grid = job.inputs.grid;
+    if (wanted.ortho) {
+        grid = analysis::ortho_grid(job.inputs.grid, ortho_cell_m(r.gsd_m), r.x_m, r.y_m);
+        const auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight));
+        stage(0.4);
+        write_ortho(job, r, radiance_product(r), lookup);
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            stage(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(made.size()));
+            if (!made[i].stem.empty()) write_ortho(job, r, made[i], lookup);
+        }
+    }
+    stage(0.9);
+    if (wanted.quicklook) write_picture(job, r, made.front());
+    write_stac_item(job, stac_image(job, r, grid));
+    report.count("products/" + job.acquisition.id, 1);
+    stage(1.0);
+    return true;
+}
+
+}  // namespace pyroscene::pipeline

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "base/report.h"
+#include "pipeline/output_names.h"
+#include "pipeline/run.h"
+#include "pipeline/scene_inputs.h"
+#include "sensors/sensor.h"
+
+namespace pyroscene::pipeline {
+
+/// What the products of one rendered camera group are made from.
+struct ProductJob {
+    const scenario::Scenario& scenario;
+    const scenario::Acquisition& acquisition;
+    const SceneInputs& inputs;
+    const sensors::Sensor& sensor;
+    const sensors::CameraGroup& group;
+    std::vector<int> bands;
+    AcquisitionFiles files;
+    std::string fingerprint;
+    bool force = false;
+};
+
+/// Makes the products the scenario asks for: brightness temperature, fractions, FRP, ortho COGs, vectors, quick-look, STAC item.
+/// Returns false when they were all there already.
+bool make_products(const ProductJob& job, const RunOptions& options, RunReport& report);
+
+/// OUT/catalog.json with a link to every acquisition's item.json that exists.
+void write_catalog(const scenario::Scenario& scenario, const std::filesystem::path& output);
+
+}  // namespace pyroscene::pipeline

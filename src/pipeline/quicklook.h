@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pyroscene::pipeline {
+
+/// One picture of a quick-look: a plane with its title, unit and pixel size on the ground.
+struct QuicklookPanel {
+    std::string title, unit;
+    int cols = 0, rows = 0;
+    std::vector<float> values;  ///< [row][col], NaN = no data
+    bool logarithmic = false;   ///< colour scale
+};
+
+/// PNG with the panels side by side, each with a colour bar, its numbers and a scale bar in metres; marked as synthetic.
+/// Throws a runtime error naming the file.
+void write_quicklook(const std::filesystem::path& path, const std::string& caption, std::span<const QuicklookPanel> panels,
+                     double pixel_m);
+
+}  // namespace pyroscene::pipeline

@@ -1,0 +1,308 @@
+#include "pipeline/render_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "gis/raster_output.h"
+#include "sensors/detector.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+using render::RadianceImage;
+
+/// Sun angles over the scene: exact at the centre, linear in latitude and longitude around it (a few km: < 0.001 deg).
+class LocalSun {
+public:
+    LocalSun(double unix_s, const gis::Geodetic& centre) : centre_(centre) {
+        const auto at = [&](double dlat, double dlon) {
+            return radiometry::sun_position(unix_s, centre.lat_deg + dlat, centre.lon_deg + dlon);
+        };
+        constexpr double kStep_deg = 0.05;
+        here_ = at(0.0, 0.0);
+        const auto north = at(kStep_deg, 0.0), east = at(0.0, kStep_deg);
+        zenith_per_deg_ = {(north.zenith_rad - here_.zenith_rad) / kStep_deg, (east.zenith_rad - here_.zenith_rad) / kStep_deg};
+        azimuth_per_deg_ = {std::remainder(north.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg,
+                            std::remainder(east.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg};
+    }
+    [[nodiscard]] const radiometry::SunPosition& centre() const { return here_; }
+    [[nodiscard]] double zenith_rad(double lat_deg, double lon_deg) const {
+        return here_.zenith_rad + zenith_per_deg_[0] * (lat_deg - centre_.lat_deg) + zenith_per_deg_[1] * (lon_deg - centre_.lon_deg);
+    }
+    [[nodiscard]] double azimuth_rad(double lat_deg, double lon_deg) const {
+        return here_.azimuth_rad + azimuth_per_deg_[0] * (lat_deg - centre_.lat_deg) +
+               azimuth_per_deg_[1] * (lon_deg - centre_.lon_deg);
+    }
+
+private:
+    gis::Geodetic centre_;
+    radiometry::SunPosition here_;
+    std::array<double, 2> zenith_per_deg_{}, azimuth_per_deg_{};
+};
+
+double positive_degrees(double angle_rad) {
+    const double degrees = std::fmod(angle_rad / kDegree_rad, 360.0);
+    return degrees < 0.0 ? degrees + 360.0 : degrees;
+}
+
+Vec3 sun_direction(const radiometry::SunPosition& sun, double convergence_rad) {
+    const double azimuth_on_grid = sun.azimuth_rad - convergence_rad, s = std::sin(sun.zenith_rad);
+    return {s * std::sin(azimuth_on_grid), s * std::cos(azimuth_on_grid), std::cos(sun.zenith_rad)};
+}
+
+/// The geolocation planes in the order of the file.
+constexpr std::array<std::array<const char*, 2>, 9> kGeolocationBands{{{"longitude", "degree"},
+                                                                        {"latitude", "degree"},
+                                                                        {"height", "m"},
+                                                                        {"view_zenith", "degree"},
+                                                                        {"view_azimuth", "degree"},
+                                                                        {"sun_zenith", "degree"},
+                                                                        {"sun_azimuth", "degree"},
+                                                                        {"range", "m"},
+                                                                        {"time", "s"}}};
+
+std::vector<double> geolocate(const RadianceImage& image, const sensors::FrameChords& chords, const LocalSun& sun, double time_s) {
+    const std::size_t n = static_cast<std::size_t>(image.samples) * static_cast<std::size_t>(image.lines);
+    std::vector<double> planes(n * kGeolocationBands.size(), std::nan(""));
+    tbb::parallel_for(0, image.lines, [&](int line) {
+        for (int sample = 0; sample < image.samples; ++sample) {
+            const std::size_t i = static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
+            if (!(image.coverage[i] > 0.0F)) continue;
+            const auto chord = chords.at(sample + 0.5, line + 0.5);
+            const double f = (chord.top_m.z - image.hit_z_m[i]) / (chord.top_m.z - chord.bottom_m.z);
+            const double lon = std::lerp(chord.top_lon_deg, chord.bottom_lon_deg, f);
+            const double lat = std::lerp(chord.top_lat_deg, chord.bottom_lat_deg, f);
+            const Vec3 v = chord.view_enu;
+            const double values[] = {lon,
+                                     lat,
+                                     image.hit_z_m[i],
+                                     std::atan2(std::hypot(v.x, v.y), v.z) / kDegree_rad,
+                                     positive_degrees(std::atan2(v.x, v.y)),
+                                     sun.zenith_rad(lat, lon) / kDegree_rad,
+                                     positive_degrees(sun.azimuth_rad(lat, lon)),
+                                     std::lerp(chord.top_range_m, chord.bottom_range_m, f),
+                                     time_s};
+            for (std::size_t b = 0; b < std::size(values); ++b) planes[b * n + i] = values[b];
+        }
+    });
+    return planes;
+}
+
+std::vector<gis::GroundControlPoint> control_points(const RadianceImage& image, const std::vector<double>& planes) {
+    std::vector<gis::GroundControlPoint> points;
+    const std::size_t n = static_cast<std::size_t>(image.samples) * static_cast<std::size_t>(image.lines);
+    constexpr int kPerAxis = 9;
+    for (int r = 0; r < kPerAxis; ++r)
+        for (int c = 0; c < kPerAxis; ++c) {
+            const int line = r * (image.lines - 1) / (kPerAxis - 1), sample = c * (image.samples - 1) / (kPerAxis - 1);
+            const std::size_t i = static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
+            if (!std::isnan(planes[i])) points.push_back({sample + 0.5, line + 0.5, planes[i], planes[n + i], planes[2 * n + i]});
+        }
+    return points;
+}
+
+std::map<std::string, std::string> common_metadata(const GroupJob& job) {
+    const auto& pose = job.pose;
+    const auto& group = job.group;
+    return {{"FINGERPRINT", job.fingerprint},
+            {"SCENARIO", job.scenario.name},
+            {"ACQUISITION", job.acquisition.id},
+            {"SENSOR", job.sensor.id},
+            {"CAMERA_GROUP", group.id},
+            {"TIME_S", fmt::format("{}", job.acquisition.time_s)},
+            {"PLATFORM_LATITUDE_DEG", fmt::format("{:.10f}", pose.position.lat_deg)},
+            {"PLATFORM_LONGITUDE_DEG", fmt::format("{:.10f}", pose.position.lon_deg)},
+            {"PLATFORM_HEIGHT_M", fmt::format("{:.4f}", pose.position.h_m)},
+            {"PLATFORM_HEADING_DEG", fmt::format("{}", pose.heading_rad / kDegree_rad)},
+            {"PLATFORM_PITCH_DEG", fmt::format("{}", pose.pitch_rad / kDegree_rad)},
+            {"PLATFORM_ROLL_DEG", fmt::format("{}", pose.roll_rad / kDegree_rad)},
+            {"FOCAL_LENGTH_M", fmt::format("{}", group.focal_length_m)},
+            {"PIXEL_PITCH_M", fmt::format("{}", group.pixel_pitch_m)},
+            {"PHYSICS", job.scenario.physics == fire::Physics::Thesis ? "thesis" : "default"}};
+}
+
+gis::OutputRaster sensor_raster(const GroupJob& job, const std::vector<gis::GroundControlPoint>& points) {
+    gis::OutputRaster out;
+    out.cols = job.group.samples;
+    out.rows = job.group.lines;
+    out.geolocation = job.files.geolocation();
+    out.control_points = points;
+    out.metadata = common_metadata(job);
+    out.acquisition_time = scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
+    return out;
+}
+
+void write_geolocation(const GroupJob& job, const std::vector<double>& planes) {
+    auto out = sensor_raster(job, {});
+    out.geolocation.reset();
+    for (const auto& [name, unit] : kGeolocationBands) out.bands.push_back({name, unit, {}, {}, {}});
+    gis::write_geotiff(job.files.geolocation(), out, std::span<const double>(planes));
+}
+
+/// What the detector makes of the noise-free image.
+struct Measured {
+    std::vector<float> radiance_W_m2_sr_um;  ///< [band][line][sample]
+    std::vector<std::uint8_t> saturated;     ///< same shape, 1 = clipped
+};
+
+Measured measure(const GroupJob& job, const RadianceImage& image, RunReport& report) {
+    Measured out{image.radiance_W_m2_sr_um, std::vector<std::uint8_t>(image.radiance_W_m2_sr_um.size(), 0)};
+    const std::size_t n = out.saturated.size() / job.bands.size();
+    for (std::size_t k = 0; k < job.bands.size(); ++k) {
+        const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
+        const auto stream = fmt::format("noise/{}/{}", job.acquisition.id, band.id);
+        const RandomKey key{job.scenario.seed, stream_id(stream.c_str()), 0};
+        const auto count = sensors::apply_detector(band, key, std::span(out.radiance_W_m2_sr_um).subspan(k * n, n),
+                                                   std::span(out.saturated).subspan(k * n, n));
+        report.count(fmt::format("saturated_pixels/{}/{}", job.acquisition.id, band.id), count);
+    }
+    return out;
+}
+
+void write_radiance(const GroupJob& job, const Measured& measured, const std::vector<gis::GroundControlPoint>& points) {
+    auto out = sensor_raster(job, points);
+    for (const int b : job.bands) {
+        const auto& band = job.sensor.bands[static_cast<std::size_t>(b)];
+        gis::OutputBand meta{band.id + " radiance", "W m-2 sr-1 um-1", band.centre_um, band.fwhm_um, {{"band_id", band.id}}};
+        if (band.saturation_radiance_W_m2_sr_um)
+            meta.metadata["saturation_radiance"] = fmt::format("{:.6g}", *band.saturation_radiance_W_m2_sr_um);
+        out.bands.push_back(std::move(meta));
+    }
+    gis::write_geotiff(job.files.radiance(), out, std::span<const float>(measured.radiance_W_m2_sr_um));
+}
+
+void write_truth(const GroupJob& job, const RadianceImage& image, const std::vector<std::uint8_t>& saturated) {
+    auto out = sensor_raster(job, {});
+    const std::size_t n = image.coverage.size();
+    std::vector<float> pixels;
+    pixels.reserve(n * (10 + job.bands.size() * (2 + render::kTermCount)));
+    const auto add = [&](gis::OutputBand band, const auto& plane) {
+        out.bands.push_back(std::move(band));
+        pixels.insert(pixels.end(), plane.begin(), plane.end());
+    };
+    const auto fraction = [](const char* name) { return gis::OutputBand{name, "1", {}, {}, {}}; };
+    std::vector<float> smoke(n);  // no smoke in the scene: the fraction is 0 wherever something is seen
+    for (std::size_t i = 0; i < n; ++i) smoke[i] = image.flame_fraction[i] * 0.0F;
+    add(fraction("fraction_flame"), image.flame_fraction);
+    add(fraction("fraction_front"), image.front_fraction);
+    add(fraction("fraction_scar"), image.scar_fraction);
+    add(fraction("fraction_background"), image.background_fraction);
+    add(fraction("fraction_smoke"), smoke);
+    add({"ground_temperature", "K", {}, {}, {}}, image.ground_temperature_K);
+    add({"flame_temperature", "K", {}, {}, {}}, image.flame_temperature_K);
+    add({"fire_radiant_exitance", "W m-2", {}, {}, {}}, image.radiant_exitance_W_m2);
+    add(fraction("scene_coverage"), image.coverage);
+    for (std::size_t k = 0; k < job.bands.size(); ++k) {
+        const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
+        const auto plane = [&](const auto& cube) { return std::span(cube).subspan(k * n, n); };
+        const auto radiance = [&](const std::string& name) {
+            return gis::OutputBand{band.id + " " + name, "W m-2 sr-1 um-1", band.centre_um, band.fwhm_um, {{"band_id", band.id}}};
+        };
+        add(radiance("radiance_noise_free"), plane(image.radiance_W_m2_sr_um));
+        add({band.id + " saturated", "1", {}, {}, {{"band_id", band.id}}}, plane(saturated));
+        for (int t = 0; t < render::kTermCount; ++t)
+            add(radiance(std::string("term_") + render::kTermNames[static_cast<std::size_t>(t)]),
+                plane(image.terms[static_cast<std::size_t>(t)]));
+    }
+    gis::write_geotiff(job.files.truth(), out, std::span<const float>(pixels));
+}
+
+void report_image(const GroupJob& job, const RadianceImage& image, const render::RenderScene& scene, RunReport& report) {
+    const auto rays = static_cast<std::int64_t>(image.coverage.size());
+    report.count("pixels", rays);
+    const auto missed = std::count_if(image.coverage.begin(), image.coverage.end(), [](float c) { return !(c > 0.0F); });
+    if (missed > 0)
+        report.warn(fmt::format("acquisition '{}': {} of {} pixels look past the scene and are no data", job.acquisition.id, missed, rays));
+    report.count("transport_wavelengths/" + job.acquisition.id, scene.optics->lambda_count);
+    report.count("flame_bricks/" + job.acquisition.id, static_cast<std::int64_t>(scene.flame->bricks.size()));
+}
+
+}  // namespace
+
+void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report) {
+    const auto& scenario = job.scenario;
+    const auto& in = job.inputs;
+    const LocalSun sun(scenario.start.unix_s + job.acquisition.time_s, in.centre);
+    const gis::MapProjection map(in.grid.crs_wkt);
+
+    std::vector<Spectrum> responses;
+    for (const int b : job.bands) responses.push_back(job.sensor.bands[static_cast<std::size_t>(b)].response);
+    const double sensor_agl_m = std::max(1.0, job.pose.position.h_m - in.mean_height_m);
+    const auto spectral = make_spectral_scene(scenario, in, responses, sensor_agl_m, sun.centre(), report);
+
+    const double flame_top_m = job.fire.flame.z_range_m()[1];
+    const sensors::FrameChords chords(job.sensor, job.group, job.pose, map, in.origin_m, in.lowest_m - 10.0,
+                                      std::max(in.highest_m, flame_top_m) + 10.0);
+
+    render::RenderScene scene;
+    scene.terrain = &job.terrain;
+    scene.surface = &job.fire.surface;
+    scene.cover = &in.cover;
+    scene.flame = &job.fire.flame;
+    scene.optics = &spectral.optics;
+    scene.spectral = &spectral.grid;
+    scene.atmosphere = &spectral.atmosphere;
+    scene.scene_origin_m = in.origin_m;
+    scene.to_sun = scenario.render.sun ? sun_direction(sun.centre(), map.convergence_rad(in.origin_m.x, in.origin_m.y))
+                                       : Vec3{0.0, 0.0, -1.0};
+
+    std::optional<render::GroundIrradiance> light;
+    if (scenario.render.flame_light && !job.fire.flame.empty()) {
+        const PhaseTimer timer(report, "render/ground_irradiance");
+        light = render::ground_irradiance(scene, {scenario.render.light_directions, scenario.render.light_reach_m},
+                                          {{}, monitor.cancelled});
+    }
+
+    const bool point_sampled = job.sensor.psf_across.shape == sensors::Psf::Shape::None &&
+                               job.sensor.psf_along.shape == sensors::Psf::Shape::None;
+    const auto pattern = sensors::pixel_samples(job.sensor.psf_across, job.sensor.psf_along,
+                                                point_sampled ? 1 : scenario.render.samples_per_axis);
+    render::ImageRequest request;
+    request.samples = job.group.samples;
+    request.lines = job.group.lines;
+    request.rays_per_pixel = static_cast<int>(pattern.weight.size());
+    request.ray_weight = pattern.weight;
+    request.rays = [&](int line, int begin, int end, std::span<render::SceneRay> out) {
+        std::size_t k = 0;
+        for (int sample = begin; sample < end; ++sample)
+            for (const auto& [dx, dy] : pattern.offset) {
+                const auto chord = chords.at(sample + 0.5 + dx, line + 0.5 + dy);
+                out[k++] = {chord.top_m, chord.bottom_m};
+            }
+    };
+    const double sun_azimuth_rad = sun.centre().azimuth_rad;
+    request.view = [&](int line, int sample, Vec3) {
+        const Vec3 v = chords.at(sample + 0.5, line + 0.5).view_enu;
+        const double line_of_sight_rad = std::atan2(v.x, v.y) + kPi;
+        return render::PixelView{std::atan2(std::hypot(v.x, v.y), v.z),
+                                 std::remainder(sun_azimuth_rad - line_of_sight_rad, 2.0 * kPi)};
+    };
+    request.terms = scenario.products.truth;
+
+    RadianceImage image;
+    {
+        const PhaseTimer timer(report, "render/image");
+        image = render::render_image(scene, light ? &*light : nullptr, request, monitor);
+    }
+    report_image(job, image, scene, report);
+
+    const PhaseTimer timer(report, "render/write");
+    const auto planes = geolocate(image, chords, sun, job.acquisition.time_s);
+    const auto points = control_points(image, planes);
+    if (points.empty())
+        throw input_error(fmt::format("acquisition '{}'", job.acquisition.id), "the camera does not see the map at all");
+    write_geolocation(job, planes);
+    if (monitor.is_cancelled()) throw Cancelled();
+    const auto measured = measure(job, image, report);
+    if (scenario.products.truth) write_truth(job, image, measured.saturated);
+    if (monitor.is_cancelled()) throw Cancelled();
+    // The radiance comes last: its presence says that the acquisition is rendered.
+    write_radiance(job, measured, points);
+}
+
+}  // namespace pyroscene::pipeline

@@ -1,0 +1,180 @@
+#include "pipeline/scene_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/constants.h"
+#include "base/csv.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "radiometry/surfaces.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+using scenario::RasterSource;
+using scenario::Scenario;
+
+int first_band(const RasterSource& source) { return source.bands.empty() ? 1 : source.bands.front(); }
+
+/// Band of a time series: listed, else every band of every file in order.
+std::vector<FrameSource> frame_bands(const RasterSource& source) {
+    std::vector<FrameSource> frames;
+    for (const auto& file : source.files) {
+        const auto info = gis::read_info(file);
+        const int count = static_cast<int>(info.bands.size());
+        std::vector<int> bands = source.bands;
+        if (bands.empty())
+            for (int b = 1; b <= count; ++b) bands.push_back(b);
+        for (const int band : bands) {
+            if (band > count)
+                throw input_error(file.string(), fmt::format("band {} asked for, but the file has {}", band, count));
+            FrameSource frame{file, band, std::nan("")};
+            const auto& metadata = info.bands[static_cast<std::size_t>(band - 1)].metadata;
+            if (const auto it = metadata.find("time_s"); it != metadata.end())
+                frame.time_s = parse_number(it->second, fmt::format("{}: band {}: time_s", file.string(), band));
+            frames.push_back(frame);
+        }
+    }
+    return frames;
+}
+
+Raster<std::uint8_t> cover_materials(const Scenario& scenario, const MapGrid& grid, std::vector<std::string>& names) {
+    names = {scenario.surface.unburned};
+    Raster<std::uint8_t> cover(grid, "cover", "1", std::uint8_t{0});
+    if (!scenario.inputs.cover) return cover;
+    const auto& source = *scenario.inputs.cover;
+    const auto codes = gis::read_classes(source.raster.files.front(), first_band(source.raster), grid, -9999);
+    const auto table = radiometry::load_fuel_surfaces(source.table == "fbfm13" || source.table == "fbfm40"
+                                                          ? data_folder() / "fuel" / "surface_of_fuel.csv"
+                                                          : std::filesystem::path(source.table));
+    const bool shipped = source.table == "fbfm13" || source.table == "fbfm40";
+    std::map<int, std::uint8_t> index_of_code;
+    for (std::size_t i = 0; i < codes.values.size(); ++i) {
+        const int code = codes.values[i];
+        auto known = index_of_code.find(code);
+        if (known == index_of_code.end()) {
+            auto name = radiometry::surface_of_fuel(table, shipped ? source.table : "", code);
+            if (name.empty()) name = scenario.surface.unburned;
+            auto position = std::find(names.begin(), names.end(), name);
+            if (position == names.end()) position = names.insert(names.end(), name);
+            known = index_of_code.emplace(code, static_cast<std::uint8_t>(position - names.begin())).first;
+        }
+        cover.values[i] = known->second;
+    }
+    return cover;
+}
+
+}  // namespace
+
+std::vector<FrameSource> heat_flux_frames(const RasterSource& source) {
+    auto frames = frame_bands(source);
+    if (!source.times_s.empty()) {
+        if (source.times_s.size() != frames.size())
+            throw input_error("inputs.heat_flux.times_s", fmt::format("{} times for {} frames of '{}'", source.times_s.size(),
+                                                                      frames.size(), source.files.front().string()));
+        for (std::size_t i = 0; i < frames.size(); ++i) frames[i].time_s = source.times_s[i];
+    }
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const auto& frame = frames[i];
+        if (std::isnan(frame.time_s))
+            throw input_error(frame.file.string(),
+                              fmt::format("band {} has no 'time_s' metadata; set inputs.heat_flux.times_s", frame.band));
+        if (i > 0 && !(frame.time_s > frames[i - 1].time_s))
+            throw input_error(frame.file.string(), fmt::format("frame times must ascend: {} s follows {} s (band {})",
+                                                               frame.time_s, frames[i - 1].time_s, frame.band));
+    }
+    return frames;
+}
+
+SceneInputs load_scene_inputs(const Scenario& scenario) {
+    SceneInputs in;
+    const auto& terrain = scenario.inputs.terrain;
+    in.grid = gis::make_map_grid(terrain.files.front(), scenario.map_crs, scenario.map_cell_m);
+    in.terrain_m = gis::read_band({terrain.files.front(), first_band(terrain), gis::Resampling::Bilinear, "terrain", "m"}, in.grid);
+    double sum = 0.0;
+    std::size_t count = 0;
+    in.lowest_m = 1e30;
+    in.highest_m = -1e30;
+    for (float& height : in.terrain_m.values) {
+        height += static_cast<float>(scenario.geoid_undulation_m);
+        if (std::isnan(height)) continue;
+        in.lowest_m = std::min(in.lowest_m, static_cast<double>(height));
+        in.highest_m = std::max(in.highest_m, static_cast<double>(height));
+        sum += height;
+        ++count;
+    }
+    in.mean_height_m = sum / static_cast<double>(count);
+    in.frames = heat_flux_frames(scenario.inputs.heat_flux);
+    in.cover = cover_materials(scenario, in.grid, in.cover_names);
+    if (const auto& arrival = scenario.inputs.arrival)
+        in.arrival_time_s = gis::read_band(
+            {arrival->files.front(), first_band(*arrival), gis::Resampling::Nearest, "arrival time", "s"}, in.grid);
+    in.origin_m = {0.5 * (in.grid.west_m + in.grid.east_m()), 0.5 * (in.grid.south_m() + in.grid.north_m), 0.0};
+    in.centre = gis::MapProjection(in.grid.crs_wkt).to_geodetic(in.origin_m.x, in.origin_m.y, in.mean_height_m);
+    return in;
+}
+
+fire::FrameInputs load_frame(const Scenario& scenario, const SceneInputs& inputs, std::size_t frame) {
+    const auto& source = inputs.frames[frame];
+    fire::FrameInputs out;
+    out.time_s = source.time_s;
+    out.heat_flux_W_m2 =
+        gis::read_band({source.file, source.band, gis::Resampling::Conserve, "heat flux", "W m-2"}, inputs.grid);
+    out.arrival_time_s = inputs.arrival_time_s;
+    const auto& wind = scenario.inputs.wind;
+    if (wind && wind->raster) {
+        // {u, v} once, or a pair of bands per frame.
+        const auto& raster = *wind->raster;
+        const auto info = gis::read_info(raster.files.front());
+        const std::size_t pairs = info.bands.size() / 2;
+        int u = 1, v = 2;
+        if (raster.bands.size() >= 2) {
+            const bool series = raster.bands.size() >= 2 * inputs.frames.size();
+            u = raster.bands[series ? 2 * frame : 0];
+            v = raster.bands[series ? 2 * frame + 1 : 1];
+        } else if (pairs == inputs.frames.size()) {
+            u = static_cast<int>(2 * frame + 1);
+            v = static_cast<int>(2 * frame + 2);
+        }
+        auto field = gis::read_wind(raster.files.front(), u, v, inputs.grid);
+        out.wind_east_m_s = std::move(field.east_m_s);
+        out.wind_north_m_s = std::move(field.north_m_s);
+        return out;
+    }
+    // A uniform wind is given against true north; the grid's axes are turned by the convergence at the centre.
+    const double speed = wind ? wind->speed_m_s : 0.0;
+    const double from_rad = wind ? wind->from_deg * kDegree_rad : 0.0;
+    const double convergence =
+        gis::MapProjection(inputs.grid.crs_wkt).convergence_rad(inputs.origin_m.x, inputs.origin_m.y);
+    const double to_grid_rad = from_rad + kPi - convergence;
+    out.wind_east_m_s = Raster<float>(inputs.grid, "wind east", "m s-1", static_cast<float>(speed * std::sin(to_grid_rad)));
+    out.wind_north_m_s = Raster<float>(inputs.grid, "wind north", "m s-1", static_cast<float>(speed * std::cos(to_grid_rad)));
+    return out;
+}
+
+std::size_t frame_at(const std::vector<FrameSource>& frames, double time_s, const std::string& acquisition_id) {
+    std::size_t found = frames.size();
+    for (std::size_t i = 0; i < frames.size() && frames[i].time_s <= time_s; ++i) found = i;
+    if (found == frames.size())
+        throw input_error(fmt::format("acquisition '{}'", acquisition_id),
+                          fmt::format("time_s {} lies before the first frame ({} s)", time_s, frames.front().time_s));
+    return found;
+}
+
+std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
+    const auto& in = scenario.inputs;
+    std::vector<const RasterSource*> sources{&in.terrain, &in.heat_flux};
+    if (in.fuel_load) sources.push_back(&*in.fuel_load);
+    if (in.arrival) sources.push_back(&*in.arrival);
+    if (in.wind && in.wind->raster) sources.push_back(&*in.wind->raster);
+    if (in.cover) sources.push_back(&in.cover->raster);
+    std::set<std::filesystem::path> unique;
+    for (const auto* source : sources) unique.insert(source->files.begin(), source->files.end());
+    return {unique.begin(), unique.end()};
+}
+
+}  // namespace pyroscene::pipeline

@@ -1,0 +1,95 @@
+#include "pipeline/state_file.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/constants.h"
+#include "base/csv.h"
+#include "base/error.h"
+#include "gis/raster_output.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+using fire::FireState;
+
+/// The float rasters of a state in band order after the class band; angles are degrees in the file, radians inside.
+struct StateBand {
+    const char* name;
+    const char* unit;
+    Raster<float> FireState::*raster;
+    double to_file;
+};
+constexpr StateBand kBands[] = {
+    {"arrival_time", "s", &FireState::arrival_time_s, 1.0},
+    {"last_burning_time", "s", &FireState::last_burning_time_s, 1.0},
+    {"surface_temperature", "K", &FireState::surface_temperature_K, 1.0},
+    {"front_fraction", "1", &FireState::front_fraction, 1.0},
+    {"flame_height", "m", &FireState::flame_height_m, 1.0},
+    {"ember_height", "m", &FireState::ember_height_m, 1.0},
+    {"flame_tilt_from_vertical", "degree", &FireState::flame_tilt_rad, 1.0 / kDegree_rad},
+    {"flame_azimuth", "degree", &FireState::flame_azimuth_rad, 1.0 / kDegree_rad},
+};
+
+double number(const std::map<std::string, std::string>& metadata, const char* key, const std::filesystem::path& path) {
+    const auto it = metadata.find(key);
+    if (it == metadata.end()) throw runtime_error(path.string(), fmt::format("state file without '{}'", key));
+    return parse_number(it->second, path.string() + ": " + key);
+}
+
+}  // namespace
+
+std::filesystem::path state_path(const std::filesystem::path& output, double time_s) {
+    const bool whole = std::abs(time_s - std::round(time_s)) < 5e-4;
+    return output / "state" / (whole ? fmt::format("t{:09.0f}.tif", time_s) : fmt::format("t{:013.3f}.tif", time_s));
+}
+
+void write_state(const std::filesystem::path& path, const FireState& state, const std::string& fingerprint,
+                 const std::string& acquisition_time) {
+    gis::OutputRaster out;
+    const MapGrid& grid = state.cell_class.grid;
+    out.grid = grid;
+    out.cols = grid.cols;
+    out.rows = grid.rows;
+    out.acquisition_time = acquisition_time;
+    out.bands.push_back({"class (0 unburned, 1 front, 2 scar, 255 no data)", "1", {}, {}, {}});
+    std::vector<float> pixels(state.cell_class.values.begin(), state.cell_class.values.end());
+    for (const auto& band : kBands) {
+        out.bands.push_back({band.name, band.unit, {}, {}, {}});
+        for (const float v : (state.*band.raster).values) pixels.push_back(static_cast<float>(v * band.to_file));
+    }
+    const auto& statistics = state.height_statistics;
+    out.metadata = {{"FINGERPRINT", fingerprint},
+                    {"TIME_S", fmt::format("{}", state.time_s)},
+                    {"HEIGHT_COUNT", fmt::format("{}", statistics.count)},
+                    {"HEIGHT_MEAN_M", fmt::format("{:.17g}", statistics.mean_m)},
+                    {"HEIGHT_M2_M2", fmt::format("{:.17g}", statistics.m2_m2)}};
+    gis::write_geotiff(path, out, std::span<const float>(pixels));
+}
+
+FireState read_state(const std::filesystem::path& path, const MapGrid& grid,
+                     const std::optional<Raster<float>>& predicted_arrival) {
+    const auto image = gis::read_image(path);
+    if (image.cols != grid.cols || image.rows != grid.rows || image.bands.size() != std::size(kBands) + 1)
+        throw runtime_error(path.string(), "is not a state of this scenario; run again with --force");
+    FireState state;
+    state.time_s = number(image.metadata, "TIME_S", path);
+    state.height_statistics.count = static_cast<std::int64_t>(number(image.metadata, "HEIGHT_COUNT", path));
+    state.height_statistics.mean_m = number(image.metadata, "HEIGHT_MEAN_M", path);
+    state.height_statistics.m2_m2 = number(image.metadata, "HEIGHT_M2_M2", path);
+    state.cell_class = Raster<std::uint8_t>(grid, "class", "1");
+    const std::size_t n = grid.size();
+    for (std::size_t i = 0; i < n; ++i)
+        state.cell_class.values[i] = static_cast<std::uint8_t>(std::isnan(image.pixels[i]) ? 255.0 : image.pixels[i]);
+    for (std::size_t b = 0; b < std::size(kBands); ++b) {
+        auto& raster = state.*kBands[b].raster;
+        raster = Raster<float>(grid, kBands[b].name, kBands[b].unit);
+        for (std::size_t i = 0; i < n; ++i)
+            raster.values[i] = static_cast<float>(image.pixels[(b + 1) * n + i] / kBands[b].to_file);
+    }
+    if (predicted_arrival) state.predicted_arrival_time_s = *predicted_arrival;
+    return state;
+}
+
+}  // namespace pyroscene::pipeline
