@@ -8,9 +8,9 @@ namespace pyroscene::radiometry {
 /// zenith angle, what happens between the ground and the sensor. Index i runs over the SpectralGrid's nodes.
 struct ViewAtmosphere {
     // Illumination (at the ground). Solar terms are zero at night.
-    std::vector<float> direct_normal_irradiance_W_m2_um;   ///< on a plane normal to the beam
-    std::vector<float> diffuse_irradiance_W_m2_um;         ///< horizontal, including ground-sky bounces
-    std::vector<float> thermal_irradiance_W_m2_um;         ///< horizontal, from the sky
+    std::vector<float> direct_normal_irradiance_W_m2_um;  ///< on a plane normal to the beam
+    std::vector<float> diffuse_irradiance_W_m2_um;        ///< horizontal, including ground-sky bounces
+    std::vector<float> thermal_irradiance_W_m2_um;        ///< horizontal, from the sky
 
     // View dependent: [node][lambda], nodes ascending in secant of the view zenith angle at the ground.
     std::vector<double> node_secant;
@@ -32,7 +32,7 @@ struct ViewAtmosphere {
     void at(double view_zenith_rad, double relative_azimuth_rad, View& out) const noexcept;
 };
 
-/// No air at all: transmittance 1, everything else 0; `lambda_count` nodes.
+/// No air at all: transmittance and solar correlation 1, everything else 0; `lambda_count` nodes.
 ViewAtmosphere vacuum(int lambda_count);
 
 }  // namespace pyroscene::radiometry
