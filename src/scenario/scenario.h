@@ -23,20 +23,20 @@ struct RasterSource {
 
 /// Wind as rasters (u, v bands) or as one vector for the whole map.
 struct WindSource {
-    std::optional<RasterSource> raster;        ///< `bands` holds {u, v} of the first frame, or is empty: 1, 2 (or pairs per frame)
+    std::optional<RasterSource> raster;  ///< `bands` holds {u, v} of the first frame, or is empty: 1, 2 (or pairs per frame)
     double speed_m_s = 0.0, from_deg = 270.0;
 };
 
 struct CoverSource {
     RasterSource raster;
-    std::string table;                         ///< fbfm13, fbfm40, or a CSV file: code,surface
+    std::string table;  ///< fbfm13, fbfm40, or a CSV file: code,surface
 };
 
 struct Inputs {
     RasterSource terrain, heat_flux;
     std::optional<RasterSource> fuel_load, arrival;
-    std::optional<WindSource> wind;            ///< absent = calm
-    std::optional<CoverSource> cover;          ///< absent = surface.unburned everywhere
+    std::optional<WindSource> wind;    ///< absent = calm
+    std::optional<CoverSource> cover;  ///< absent = surface.unburned everywhere
 };
 
 /// Days since 1970 arithmetic is done once, here: seconds since the Unix epoch, UTC.
@@ -55,9 +55,9 @@ struct AtmosphereSource {
 };
 
 struct SurfaceSettings {
-    std::string unburned = "grass_dry";        ///< surface spectrum where no cover raster says otherwise
+    std::string unburned = "grass_dry";  ///< surface spectrum where no cover raster says otherwise
     std::string burned = "char_black";
-    std::optional<double> emissivity;          ///< one grey emissivity for everything (furnace, thesis)
+    std::optional<double> emissivity;  ///< one grey emissivity for everything (furnace, thesis)
 };
 
 struct FlameSettings {
@@ -68,11 +68,11 @@ struct FlameSettings {
 };
 
 struct RenderSettings {
-    int samples_per_axis = 3;                  ///< sub-rays per pixel = its square (1 when the PSF is none)
+    int samples_per_axis = 3;  ///< sub-rays per pixel = its square (1 when the PSF is none)
     int light_directions = 64;
     double light_reach_m = 500.0;
     bool flame_light = true;
-    bool sun = true;                           ///< false = solar terms off whatever the hour
+    bool sun = true;  ///< false = solar terms off whatever the hour
 };
 
 /// Pose of a frame: over a map place or at geographic coordinates.
@@ -89,13 +89,14 @@ struct Acquisition {
     std::string id, sensor;
     double time_s = 0.0;
     Platform platform;
-    std::vector<std::string> groups;           ///< camera groups; empty = all
-    std::vector<std::string> bands;            ///< empty = all
+    std::vector<std::string> groups;  ///< camera groups; empty = all
+    std::vector<std::string> bands;   ///< empty = all
     int line = 0;
 };
 
 struct Products {
-    bool radiance = true, brightness_temperature = true, ortho = true, truth = true, fractions = true, frp = true, quicklook = true;
+    bool radiance = true, brightness_temperature = true, ortho = true, truth = true, fractions = true, frp = true,
+         quicklook = true;
 };
 
 /// All that the user asked for, fully checked by load(): files exist, sensors are known, numbers are in range.

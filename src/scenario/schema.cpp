@@ -1,0 +1,7 @@
+#include "scenario/scenario.h"
+
+namespace pyroscene::scenario {
+
+std::string json_schema() { return "{}"; }
+
+}  // namespace pyroscene::scenario

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include "scenario/readers.h"
+
+namespace fs = std::filesystem;
+
+namespace pyroscene::scenario {
+
+namespace {
+
+constexpr config::Range kBand = config::Range::between(1, 65535);
+
+/// How many bands make one frame, and whether the raster may change with time at all.
+struct SourceShape {
+    bool series = false;
+    std::size_t bands_per_frame = 1;
+};
+constexpr SourceShape kStatic{false, 1}, kScalarSeries{true, 1}, kVectorSeries{true, 2};
+
+bool given_twice(const config::Node& node, const char* one, const char* several) {
+    if (!node.has(one) || !node.has(several)) return false;
+    node.report(fmt::format("give '{}' or '{}', not both", one, several));
+    return true;
+}
+
+std::vector<fs::path> read_files(const config::Node& node, const fs::path& folder, bool series) {
+    std::vector<fs::path> files;
+    const config::Node one = node.child("file");
+    const config::Node several = series ? node.child("files") : config::Node{};
+    if (series && given_twice(node, "file", "files")) return files;
+    if (!one.present() && !several.present()) {
+        node.report(series ? "key 'file' (or 'files') is missing" : "key 'file' is missing");
+        return files;
+    }
+    if (one.present()) return {read_file_name(one, folder)};
+    if (!several.is_list() || several.items().empty()) {
+        several.report("expected a list of files");
+        return files;
+    }
+    for (const auto& item : several.items()) files.push_back(read_file_name(item, folder));
+    return files;
+}
+
+/// The words [u, v] stand for the order in which wind bands are stored, which is the default.
+bool is_u_v(const config::Node& bands) {
+    const auto items = bands.items();
+    return items.size() == 2 && items[0].is_scalar() && items[1].is_scalar() && items[0].as_text("") == "u" &&
+           items[1].as_text("") == "v";
+}
+
+std::vector<int> read_bands(const config::Node& node, const SourceShape& shape) {
+    const bool vector = shape.bands_per_frame > 1;
+    const config::Node one = vector ? config::Node{} : node.child("band");
+    const config::Node several = shape.series ? node.child("bands") : config::Node{};
+    if (shape.series && !vector && given_twice(node, "band", "bands")) return {};
+    if (one.present()) return {static_cast<int>(one.as_integer(1, kBand))};
+    if (!several.present() || (vector && is_u_v(several))) return {};
+    if (!several.is_list() || several.items().empty()) {
+        several.report(vector ? "expected a list of band numbers: u, v of each frame" : "expected a list of band numbers");
+        return {};
+    }
+    std::vector<int> bands;
+    for (const auto& item : several.items()) bands.push_back(static_cast<int>(item.as_integer(1, kBand)));
+    if (bands.size() % shape.bands_per_frame != 0)
+        several.report(fmt::format("expected pairs of band numbers (u, v of each frame), found {} numbers", bands.size()));
+    return bands;
+}
+
+void check_ascending(const config::Node& node, const std::vector<double>& times_s) {
+    for (std::size_t i = 0; i < times_s.size(); ++i) {
+        if (times_s[i] < 0.0) node.report(fmt::format("must be >= 0, found {}", times_s[i]));
+        if (i > 0 && times_s[i] <= times_s[i - 1])
+            return node.report(fmt::format("times must ascend, but {} follows {}", times_s[i], times_s[i - 1]));
+    }
+}
+
+/// Frames that files and bands promise; 0 = known only when the file is opened.
+std::size_t promised_frames(const RasterSource& source, const SourceShape& shape) {
+    if (!source.bands.empty()) return source.files.size() * (source.bands.size() / shape.bands_per_frame);
+    return source.files.size() > 1 ? source.files.size() : 0;
+}
+
+std::vector<double> read_times(const config::Node& node, const RasterSource& source, const SourceShape& shape) {
+    const std::vector<double> times_s = node.numbers("times_s");
+    const config::Node key = node.child("times_s");
+    check_ascending(key, times_s);
+    const std::size_t frames = promised_frames(source, shape);
+    if (!times_s.empty() && frames != 0 && frames != times_s.size())
+        key.report(fmt::format("expected one time for each of {} frames (files x bands), found {}", frames, times_s.size()));
+    return times_s;
+}
+
+RasterSource read_source(const config::Node& node, const fs::path& folder, const SourceShape& shape) {
+    RasterSource source;
+    source.line = node.line();
+    if (!node.is_map()) return source;  // what it is instead is said by finish()
+    source.files = read_files(node, folder, shape.series);
+    source.bands = read_bands(node, shape);
+    if (shape.series) source.times_s = read_times(node, source, shape);
+    return source;
+}
+
+std::optional<RasterSource> read_optional(const config::Node& node, const fs::path& folder, const SourceShape& shape) {
+    if (!node.present()) return std::nullopt;
+    RasterSource source = read_source(node, folder, shape);
+    node.finish();
+    return source;
+}
+
+WindSource read_wind(const config::Node& node, const fs::path& folder) {
+    WindSource wind;
+    if (!node.is_map()) {
+        node.finish();
+        return wind;
+    }
+    if (node.has("speed")) given_twice(node, "speed", "speed_m_s");
+    constexpr config::Range kSpeed = config::Range::between(0.0, 100.0);
+    const auto short_name = node.optional_number("speed", kSpeed), speed = node.optional_number("speed_m_s", kSpeed);
+    const auto from_deg = node.optional_number("from_deg", config::Range::between(-360.0, 360.0));
+    const bool uniform = node.has("speed") || node.has("speed_m_s") || node.has("from_deg");
+    const bool raster = node.has("file") || node.has("files");
+    for (const char* key : {"file", "files", "bands", "times_s"}) node.ignore(key);
+    if (uniform && raster) node.report("give rasters or 'speed' and 'from_deg', not both");
+    if (uniform && !raster && !node.has("speed") && !node.has("speed_m_s")) node.report("key 'speed' is missing");
+    if (uniform && !raster && !node.has("from_deg")) node.report("key 'from_deg' is missing (where the wind comes from)");
+    if (!uniform && !raster) node.report("expected 'file' or 'files' with u and v, or 'speed' and 'from_deg'");
+    if (raster) wind.raster = read_source(node, folder, kVectorSeries);
+    wind.speed_m_s = speed.value_or(short_name.value_or(0.0));
+    wind.from_deg = from_deg.value_or(wind.from_deg);
+    node.finish();
+    return wind;
+}
+
+CoverSource read_cover(const config::Node& node, const fs::path& folder) {
+    CoverSource cover;
+    if (!node.is_map()) {
+        node.finish();
+        return cover;
+    }
+    cover.raster = read_source(node, folder, kStatic);
+    const config::Node table = node.required_child("table");
+    cover.table = table.as_text("");
+    const bool shipped = cover.table == "fbfm13" || cover.table == "fbfm40";
+    if (table.is_scalar() && !shipped) {
+        const bool file = cover.table.find('/') != std::string::npos || fs::path(cover.table).extension() == ".csv";
+        if (file)
+            cover.table = read_file_name(table, folder).string();
+        else
+            table.report(fmt::format("'{}' is none of fbfm13, fbfm40 or a CSV file", cover.table));
+    }
+    node.finish();
+    return cover;
+}
+
+}  // namespace
+
+Inputs read_inputs(const config::Node& node, const fs::path& folder) {
+    Inputs inputs;
+    if (!node.present()) return inputs;
+    const config::Node terrain = node.required_child("terrain"), heat_flux = node.required_child("heat_flux");
+    inputs.terrain = read_source(terrain, folder, kStatic);
+    terrain.finish();
+    inputs.heat_flux = read_source(heat_flux, folder, kScalarSeries);
+    heat_flux.finish();
+    inputs.fuel_load = read_optional(node.child("fuel_load"), folder, kScalarSeries);
+    inputs.arrival = read_optional(node.child("arrival"), folder, kStatic);
+    if (const auto wind = node.child("wind"); wind.present()) inputs.wind = read_wind(wind, folder);
+    if (const auto cover = node.child("cover"); cover.present()) inputs.cover = read_cover(cover, folder);
+    node.finish();
+    return inputs;
+}
+
+}  // namespace pyroscene::scenario

@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include "base/constants.h"
+#include "base/csv.h"
+#include "base/files.h"
+#include "scenario/readers.h"
+
+namespace fs = std::filesystem;
+
+namespace pyroscene::scenario {
+
+namespace {
+
+using config::Range;
+
+/// A method with one name so far: any other word is told.
+void check_method(const config::Node& node, const char* key, const char* name) {
+    [[maybe_unused]] const std::string found = node.choice(key, name, {name});
+}
+
+void read_flame_height(const config::Node& node, fire::FireParameters& p) {
+    check_method(node, "method", "heat_flux");
+    p.height_alpha = node.number("alpha", p.height_alpha, Range{0.0, 100.0, true});
+    p.volumetric_heat_release_W_m3 =
+        node.number("volumetric_heat_release_W_m3", p.volumetric_heat_release_W_m3, Range::between(1e4, 1e8));
+    node.finish();
+}
+
+void read_tilt(const config::Node& node, fire::FireParameters& p) {
+    check_method(node, "method", "buoyant_velocity");
+    p.maximum_tilt_rad =
+        node.number("maximum_deg", p.maximum_tilt_rad / kDegree_rad, Range::between(0.0, 89.0)) * kDegree_rad;
+    node.finish();
+}
+
+void read_air(const config::Node& node, fire::FireParameters& p) {
+    p.air_density_kg_m3 = node.number("density_kg_m3", p.air_density_kg_m3, Range::between(0.1, 2.0));
+    p.air_heat_capacity_J_kg_K =
+        node.number("heat_capacity_J_kg_K", p.air_heat_capacity_J_kg_K, Range::between(500.0, 2000.0));
+    p.air_temperature_K = node.number("temperature_K", p.air_temperature_K, Range::between(200.0, 400.0));
+    node.finish();
+}
+
+fire::ScarCooling read_scar(const config::Node& node) {
+    fire::ScarCooling scar;
+    constexpr Range kAmplitude = Range::between(0.0, 3000.0), kTimeConstant{0.0, 1e7, true};
+    check_method(node, "model", "double_exponential");
+    scar.amplitude1_K = node.number("amplitude1_K", scar.amplitude1_K, kAmplitude);
+    scar.time_constant1_s = node.number("time_constant1_s", scar.time_constant1_s, kTimeConstant);
+    scar.amplitude2_K = node.number("amplitude2_K", scar.amplitude2_K, kAmplitude);
+    scar.time_constant2_s = node.number("time_constant2_s", scar.time_constant2_s, kTimeConstant);
+    scar.floor_K = node.number("floor_K", scar.floor_K, kTemperature_K);
+    node.finish();
+    return scar;
+}
+
+/// Names of the shipped surface spectra: the columns of the table after the wavelength.
+std::vector<std::string> surface_names() {
+    auto columns = read_csv(data_folder() / "optical" / "surface_reflectance.csv").columns;
+    columns.erase(columns.begin());
+    return columns;
+}
+
+}  // namespace
+
+fire::FireParameters read_fire(const config::Node& node, const config::Node& scar) {
+    fire::FireParameters p;
+    p.front_threshold_W_m2 = node.number("front_threshold_W_m2", p.front_threshold_W_m2, Range{0.0, 1e8, true});
+    p.front_temperature_K = node.number("front_temperature_K", p.front_temperature_K, kTemperature_K);
+    p.ambient_temperature_K = node.number("ambient_temperature_K", p.ambient_temperature_K, kTemperature_K);
+    p.flaming_heat_flux_W_m2 = node.number("flaming_heat_flux_W_m2", p.flaming_heat_flux_W_m2, Range{0.0, 1e8, true});
+    p.one_sigma_rule = node.boolean("one_sigma_rule", p.one_sigma_rule);
+    p.jitter_m = node.number("jitter_m", p.jitter_m, Range::between(0.0, 1000.0));
+    read_flame_height(node.child("flame_height"), p);
+    read_tilt(node.child("tilt"), p);
+    read_air(node.child("air"), p);
+    node.finish();
+    p.scar = read_scar(scar);
+    return p;
+}
+
+FlameSettings read_flame(const config::Node& node) {
+    FlameSettings flame;
+    auto& p = flame.parameters;
+    flame.off = !node.boolean("enabled", !flame.off);
+    p.temperature_K = node.number("temperature_K", p.temperature_K, kTemperature_K);
+    flame.soot_volume_fraction = node.number("soot_volume_fraction", flame.soot_volume_fraction, Range::between(0.0, 1e-4));
+    flame.grey_absorption_per_m = node.optional_number("absorption_per_m", Range::between(0.0, 1e4));
+    p.ember_gap_m = node.number("ember_gap_m", p.ember_gap_m, Range::between(0.0, 100.0));
+    if (node.has("soot_volume_fraction") && node.has("absorption_per_m"))
+        node.child("absorption_per_m").report("replaces soot; give 'soot_volume_fraction' or 'absorption_per_m', not both");
+    const auto edges_m = node.numbers("voxel_m", 3);
+    const auto items = node.child("voxel_m").items();
+    for (std::size_t axis = 0; axis < edges_m.size(); ++axis)
+        p.voxel_m[axis] = items[axis].as_number(p.voxel_m[axis], Range::between(0.05, 200.0));
+    node.finish();
+    return flame;
+}
+
+SurfaceSettings read_surface(const config::Node& node) {
+    SurfaceSettings surface;
+    if (!node.present()) return surface;
+    const auto names = surface_names();
+    surface.unburned = node.choice("unburned", surface.unburned, names);
+    surface.burned = node.choice("burned", surface.burned, names);
+    surface.emissivity = node.optional_number("emissivity", Range{0.0, 1.0, true});
+    node.finish();
+    return surface;
+}
+
+AtmosphereSource read_atmosphere(const config::Node& node, const fs::path& folder) {
+    AtmosphereSource atmosphere;
+    atmosphere.model = node.choice("model", atmosphere.model, kAtmosphereModels);
+    atmosphere.visibility_km = node.number("visibility_km", atmosphere.visibility_km, Range::between(1.0, 300.0));
+    atmosphere.ground_elevation_m = node.optional_number("ground_elevation_m", Range::between(-500.0, 6000.0));
+    if (const auto file = node.child("file"); file.present()) {
+        atmosphere.file = read_file_name(file, folder);
+        if (node.has("model") || node.has("visibility_km"))
+            node.report("give 'model' and 'visibility_km', or 'file', not both");
+    }
+    node.finish();
+    return atmosphere;
+}
+
+RenderSettings read_render(const config::Node& node) {
+    RenderSettings render;
+    render.samples_per_axis =
+        static_cast<int>(node.integer("samples_per_axis", render.samples_per_axis, Range::between(1, 16)));
+    render.light_directions =
+        static_cast<int>(node.integer("light_directions", render.light_directions, Range::between(4, 65536)));
+    render.light_reach_m = node.number("light_reach_m", render.light_reach_m, Range::between(0.0, 10000.0));
+    render.flame_light = node.boolean("flame_light", render.flame_light);
+    render.sun = node.boolean("sun", render.sun);
+    node.finish();
+    return render;
+}
+
+}  // namespace pyroscene::scenario

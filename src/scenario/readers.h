@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "config/yaml.h"
+#include "scenario/scenario.h"
+
+/// The sections of a scenario file, one function each. They report what is wrong in the document and go on, so that the user
+/// sees all problems at once; what they return is used only when there are none.
+namespace pyroscene::scenario {
+
+inline const std::vector<std::string> kAtmosphereModels{"midlatitude_summer", "midlatitude_winter", "subarctic_summer",
+                                                        "tropical",           "us_standard_1976",   "none"};
+inline const std::vector<std::string> kProductNames{
+    "radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook"};
+
+/// Temperatures that ground and flames of a scene can have [K].
+inline constexpr config::Range kTemperature_K = config::Range::between(200.0, 3500.0);
+
+/// \param folder  of the scenario file; relative paths start there
+Inputs read_inputs(const config::Node& node, const std::filesystem::path& folder);
+fire::FireParameters read_fire(const config::Node& fire, const config::Node& scar);
+FlameSettings read_flame(const config::Node& node);
+SurfaceSettings read_surface(const config::Node& node);
+AtmosphereSource read_atmosphere(const config::Node& node, const std::filesystem::path& folder);
+RenderSettings read_render(const config::Node& node);
+std::vector<Acquisition> read_acquisitions(const config::Node& node, const std::filesystem::path& folder);
+Products read_products(const config::Node& node);
+
+/// The file a key names, absolute; reports a file that does not exist. Empty when the key is absent.
+std::filesystem::path read_file_name(const config::Node& node, const std::filesystem::path& folder);
+/// A list of words; a problem when it is no list or empty. Empty when the key is absent.
+std::vector<std::string> read_words(const config::Node& node);
+/// Names that become parts of paths and URLs: letters, digits, '.', '_' and '-', not starting with '.' or '-'.
+bool is_safe_name(const std::string& name);
+
+}  // namespace pyroscene::scenario
