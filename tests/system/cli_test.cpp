@@ -1,0 +1,73 @@
+// The commands as a user types them: exit codes, calc values, help.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "base/csv.h"
+#include "system/support.h"
+
+namespace pyroscene::test {
+namespace {
+
+double single_result(const std::string& output) { return std::stod(output.substr(output.find('=') + 1)); }
+
+TEST(Cli, ExitCodes) {
+    EXPECT_EQ(pyroscene_cli("--help").exit_code, 0);
+    EXPECT_EQ(pyroscene_cli("--version").exit_code, 0);
+    EXPECT_EQ(pyroscene_cli("").exit_code, 2);
+    EXPECT_EQ(pyroscene_cli("dance").exit_code, 2);
+    EXPECT_EQ(pyroscene_cli("run").exit_code, 2);
+    EXPECT_EQ(pyroscene_cli("run nothing.yaml").exit_code, 3);
+    EXPECT_EQ(pyroscene_cli("calc dance").exit_code, 2);
+    EXPECT_EQ(pyroscene_cli("calc planck --wavelength_um 4 --colour red").exit_code, 2);
+    EXPECT_EQ(pyroscene_cli("calc planck --wavelength_um four --temperature_K 1100").exit_code, 3);
+}
+
+TEST(Cli, EveryVerbHasHelpWithAnExample) {
+    for (const std::string verb : {"run", "prepare", "render", "products", "check", "sensors", "calc"}) {
+        const auto help = pyroscene_cli(verb + " --help");
+        EXPECT_EQ(help.exit_code, 0) << verb;
+        EXPECT_NE(help.output.find("Example: pyroscene " + verb), std::string::npos) << verb << "\n" << help.output;
+    }
+}
+
+// Values: CODATA Planck (thesis-case checks), eq 4.22 with the unit right, Nelson's buoyant velocity, eq 4.18 at t = 0.
+TEST(Calc, KnownValues) {
+    const auto value = [](const std::string& words) { return single_result(pyroscene_cli("calc " + words).output); };
+    EXPECT_NEAR(value("planck --wavelength_um 4 --temperature_K 1100"), 4595.535, 0.001);
+    EXPECT_NEAR(value("brightness-temperature --wavelength_um 3.96 --radiance_W_m2_sr_um 0.6726"), 300.0, 0.01);
+    EXPECT_NEAR(value("band-radiance --lower_um 3 --upper_um 5 --temperature_K 1100"), 4634.83, 0.05);
+    EXPECT_NEAR(value("band-radiance --sensor wasp --band MWIR --temperature_K 600"), 273.55, 0.01);
+    EXPECT_NEAR(value("flame-height --heat_flux_W_m2 5.92e6"), 2.96, 1e-9);
+    EXPECT_NEAR(value("flame-tilt --wind_m_s 3 --fireline_intensity_kW_m 500"), 44.79912, 1e-4);
+    EXPECT_NEAR(value("scar-temperature --time_s 0"), 809.66 + 273.15, 1e-6);
+    EXPECT_NEAR(value("atmosphere --wavelength_um 0.55 --altitude_m 4200"), 0.724, 0.002);
+}
+
+TEST(Calc, TableKeepsItsColumnsAndAppendsResults) {
+    const ScratchFolder scratch;
+    std::ofstream(scratch / "in.csv") << "# points\nname,wavelength_um,temperature_K\na,4,1100\nb,11,300\n";
+    const auto result = pyroscene_cli("calc planck --csv " + (scratch / "in.csv").string() + " -o " + (scratch / "out.csv").string());
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const auto table = read_csv(scratch / "out.csv");
+    EXPECT_EQ(table.columns, (std::vector<std::string>{"name", "wavelength_um", "temperature_K", "radiance_W_m2_sr_um"}));
+    const auto radiance = table.numbers("radiance_W_m2_sr_um");
+    EXPECT_NEAR(radiance[0], 4595.535, 0.001);
+    EXPECT_NEAR(radiance[1], 9.573, 0.001);
+}
+
+TEST(Sensors, ListAndDetails) {
+    const auto list = pyroscene_cli("sensors");
+    EXPECT_EQ(list.exit_code, 0);
+    for (const std::string id : {"wasp", "wasp-thesis", "generic-framing"}) EXPECT_NE(list.output.find(id), std::string::npos);
+    const auto one = pyroscene_cli("sensors wasp");
+    EXPECT_NE(one.output.find("MWIR"), std::string::npos);
+    EXPECT_NE(pyroscene_cli("sensors wasp --json").output.find("\"saturation_radiance_W_m2_sr_um\""), std::string::npos);
+    const auto wrong = pyroscene_cli("sensors wsap");
+    EXPECT_EQ(wrong.exit_code, 3);
+    EXPECT_NE(wrong.output.find("wasp"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pyroscene::test
