@@ -62,5 +62,7 @@ fi
 apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=120 -o Acquire::Retries=3 "$@"; }
 
 printf 'setup: installing %s\n' "${missing[*]}"
-apt -qq update || { sleep 5 && apt -qq update; } || die "apt-get update failed twice; is the package mirror reachable?"
-apt -qq install -y --no-install-recommends "${missing[@]}" >/dev/null || die "apt-get could not install ${missing[*]}"
+# Strict about unreachable mirrors so that the retry happens, but old package lists may still do for the installation.
+update() { apt -qq -o APT::Update::Error-Mode=any update; }
+update || { sleep 5 && update; } || echo "setup: the package lists could not be refreshed; trying with those there are" >&2
+apt -qq install -y --no-install-recommends "${missing[@]}" >/dev/null || die "apt-get could not install ${missing[*]}; is the package mirror reachable?"
