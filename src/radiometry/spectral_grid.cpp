@@ -13,8 +13,9 @@
 namespace pyroscene::radiometry {
 namespace {
 
-constexpr std::array<double, 6> kTemperatures_K{300.0, 400.0, 550.0, 800.0, 1200.0, 2000.0};
-constexpr double kTolerance = 4e-6, kDarkTolerance = 4e-4, kDark_W_m2_sr_um = 1e-3;
+constexpr std::array<double, 14> kTemperatures_K{300.0, 340.0, 380.0, 420.0,  470.0,  530.0,  600.0,
+                                                 700.0, 800.0, 930.0, 1100.0, 1300.0, 1600.0, 2000.0};
+constexpr double kTolerance = 4e-6, kDark_W_m2_sr_um = 1e-3, kDarkFactor = 100.0;
 constexpr double kNegligibleShare = 1e-3;  // of the band; such a cell joins its neighbour
 constexpr std::size_t kMaximumCells = 512;
 
@@ -73,7 +74,8 @@ Band make_band(const Spectrum& response) {
     Band band{response, response_area_um(response), {}};
     for (std::size_t k = 0; k < kTemperatures_K.size(); ++k) {
         const double mean = band_mean_radiance(kTemperatures_K[k], response);
-        band.allowed[k] = std::max(mean * band.area_um * (mean < kDark_W_m2_sr_um ? kDarkTolerance : kTolerance), 1e-300);
+        const double factor = std::min(std::max(1.0, kDark_W_m2_sr_um / mean), kDarkFactor);  // mean = 0: the latter
+        band.allowed[k] = std::max(mean * band.area_um * kTolerance * factor, 1e-300);
     }
     return band;
 }
