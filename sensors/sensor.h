@@ -16,8 +16,8 @@ enum class ScanType { Framing, Pushbroom, Whiskbroom, LineScanner, Conical, Spin
 /// One focal plane: bands of a group share pixels.
 struct CameraGroup {
     std::string id;
-    int samples = 0, lines = 0;                        ///< nx, ny
-    double focal_length_m = 0.0, pixel_pitch_m = 0.0;
+    int samples = 0, lines = 0;                        ///< nx, ny; scanners: samples per line, detectors along track
+    double focal_length_m = 0.0, pixel_pitch_m = 0.0;  ///< 0 = not in the file: no lines of sight
     std::array<double, 2> principal_point_px{};        ///< pixel CENTRES at integers, as the files write it
     std::array<double, 3> radial{};                    ///< Brown k1, k2, k3 on (x/f, y/f)
     std::array<double, 2> tangential{};                ///< Brown p1, p2
@@ -26,23 +26,25 @@ struct CameraGroup {
 /// Point-spread function along one image axis.
 struct Psf {
     enum class Shape { None, Box, Triangle, Gaussian, Trapezoid } shape = Shape::None;
-    double width_samples = 1.0;  ///< FWHM (gaussian) or full base of box / triangle, in samples
+    double width_samples = 1.0;         ///< FWHM (gaussian) or full base of box / triangle, in samples
+    double second_width_samples = 0.0;  ///< trapezoid: the box of width_samples is convolved with a box of this width
 };
 
 /// Radiance noise of a band.
 struct Noise {
     enum class Kind { None, NoiseEquivalentTemperature, SignalToNoise, SignalToNoiseAtAlbedo } kind = Kind::None;
-    double value = 0.0;                       ///< K, or ratio
-    double at_temperature_K = 300.0;          ///< of an NEdT
-    std::optional<double> at_radiance;        ///< W m-2 sr-1 um-1 of an SNR; absent: ratio to the signal itself
+    double value = 0.0;                 ///< K, or ratio
+    double at_temperature_K = 300.0;    ///< of an NEdT
+    std::optional<double> at_radiance;  ///< W m-2 sr-1 um-1 of an SNR; absent: ratio to the signal itself
     std::optional<double> at_albedo;
 };
 
 struct Band {
     std::string id, group;
     double centre_um = 0.0, fwhm_um = 0.0;
-    Spectrum response;                                 ///< Quantity::Response, peak 1
+    Spectrum response;  ///< Quantity::Response, peak 1
     bool measured_response = false;
+    std::string response_source;  ///< "boxcar 3 - 5 um" or "srf/modis-terra.csv, band 20"
     Noise noise;
     std::optional<double> saturation_radiance_W_m2_sr_um;
     std::optional<int> bits;
@@ -53,10 +55,12 @@ struct Sensor {
     bool airborne = true;
     double altitude_agl_m = 0.0, ground_speed_m_s = 0.0;
     ScanType scan = ScanType::Framing;
-    std::array<double, 3> boresight_offset_rad{};      ///< roll, pitch, heading misalignment between body and camera
+    std::array<double, 3> boresight_offset_rad{};  ///< roll, pitch, heading misalignment between body and camera
     std::vector<CameraGroup> groups;
     Psf psf_across, psf_along;
-    std::vector<Band> bands;                           ///< in file order
+    std::vector<Band> bands;                             ///< in file order
+    std::vector<std::array<std::string, 2>> confidence;  ///< {path of a number, code}, in file order; the last match wins
+    std::vector<std::array<std::string, 2>> sources;     ///< {key used in the codes, text}
 
     /// Throws an input error listing the groups there are.
     [[nodiscard]] const CameraGroup& group(const std::string& id) const;
@@ -64,7 +68,8 @@ struct Sensor {
     [[nodiscard]] int band_index(const std::string& id) const;  ///< -1 = none
 };
 
-/// A shipped sensor by id, or a YAML file by path. Strict: an unknown key is an error with line and nearest key.
+/// A shipped sensor by id, or a YAML file by path (a name with '/' or ending in .yaml or .yml). Strict: an unknown key is
+/// an error with line and nearest key; all problems of a file are reported in one input error.
 Sensor load_sensor(const std::string& id_or_path);
 /// Ids of the shipped sensors, sorted.
 std::vector<std::string> sensor_ids();

@@ -13,19 +13,30 @@ namespace pyroscene::analysis {
 struct OrthoLookup {
     MapGrid grid;
     std::vector<float> sample, line;
+    std::vector<float> ground_z_m;  ///< height of that ground point, interpolated like the position; NaN where not seen
 };
 
-/// Inverts per-pixel ground coordinates. Neighbouring pixel centres span quads on the map; each map cell centre inside a quad
-/// gets its bilinear position. Where quads overlap (steep terrain folded away from the view, swath bow-tie) the higher
+/// Inverts per-pixel ground coordinates. Neighbouring pixel centres span quads on the map; each map cell centre inside a
+/// quad gets its bilinear position. Where quads overlap (steep terrain folded away from the view, swath bow-tie) the higher
 /// ground wins. The outermost half pixel is extrapolated.
-/// \param x_m, y_m, z_m  [line][sample] ground point of each pixel centre on the map, NaN = none
-OrthoLookup ortho_lookup(const MapGrid& grid, int samples, int lines, std::span<const double> x_m, std::span<const double> y_m,
-                         std::span<const double> z_m);
+/// Where a ridge hides ground, the quads between the ridge and the ground behind it bridge the gap; hide_unseen() removes
+/// them. \param x_m, y_m, z_m  [line][sample] ground point of each pixel centre on the map, NaN = none Throws an input error
+/// for an image narrower than 2 x 2 pixels or arrays of other lengths.
+OrthoLookup ortho_lookup(const MapGrid& grid, int samples, int lines, std::span<const double> x_m,
+                         std::span<const double> y_m, std::span<const double> z_m);
 
-/// Resamples one plane [line][sample] onto the lookup's grid: bilinear over valid pixels, or nearest. NaN where nothing is seen.
-std::vector<float> ortho_resample(const OrthoLookup& lookup, int samples, int lines, std::span<const float> plane, bool nearest);
+/// Sets cells to NaN whose interpolated ground lies more than tolerance_m above or below the terrain: they are hidden from
+/// the sensor. \param terrain_z_m heights on the lookup's grid (same reference as z_m); NaN hides nothing
+/// \return number of cells removed
+std::int64_t hide_unseen(OrthoLookup& lookup, std::span<const float> terrain_z_m, double tolerance_m);
 
-/// North-up grid that covers all finite ground points, with the given cell, corners at multiples of the cell.
+/// Resamples one plane [line][sample] onto the lookup's grid: bilinear over valid pixels, or nearest. NaN where nothing is
+/// seen.
+std::vector<float> ortho_resample(const OrthoLookup& lookup, int samples, int lines, std::span<const float> plane,
+                                  bool nearest);
+
+/// North-up grid that covers all finite ground points, with the given cell, corners at multiples of the cell and the CRS of
+/// `like`. Throws an input error when no point is finite or the grid would have more than 2^31 - 1 cells.
 MapGrid ortho_grid(const MapGrid& like, double cell_m, std::span<const double> x_m, std::span<const double> y_m);
 
 }  // namespace pyroscene::analysis

@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/csv.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "radiometry/planck.h"
+#include "sensors/sensor_file.h"
+
+namespace fs = std::filesystem;
+
+namespace pyroscene::sensors {
+namespace {
+
+using config::Node;
+using config::Range;
+
+/// Nominal band between its edges: two points, zero outside (Spectrum::at with clamp = false).
+Spectrum boxcar(double lower_um, double upper_um) { return {Quantity::Response, {lower_um, upper_um}, {1.0, 1.0}}; }
+
+/// exp(-4 ln2 ((l - centre) / fwhm)^2) out to 1.5 FWHM (0.2 % of the peak), as the channel tables prescribe.
+Spectrum gaussian(double centre_um, double fwhm_um) {
+    constexpr int kHalfPoints = 30;
+    Spectrum s{Quantity::Response, {}, {}};
+    for (int i = -kHalfPoints; i <= kHalfPoints; ++i) {
+        const double offset_fwhm = 1.5 * i / kHalfPoints;
+        s.lambda_um.push_back(centre_um + offset_fwhm * fwhm_um);
+        s.value.push_back(std::exp(-4.0 * std::log(2.0) * offset_fwhm * offset_fwhm));
+    }
+    return s;
+}
+
+/// Tables named by a sensor file: beside it, one folder up (specs/ and srf/ are neighbours), or among the shipped ones.
+class Tables {
+public:
+    explicit Tables(fs::path sensor_file) : sensor_file_(std::move(sensor_file)) {}
+
+    const CsvTable& open(const std::string& name) {
+        if (const auto known = tables_.find(name); known != tables_.end()) return known->second;
+        return tables_.emplace(name, read_csv(find(name))).first->second;
+    }
+
+private:
+    [[nodiscard]] fs::path find(const std::string& name) const {
+        const fs::path folder = sensor_file_.parent_path();
+        for (const fs::path& candidate : {folder / name, folder / ".." / name, sensor_folder() / name})
+            if (fs::is_regular_file(candidate)) return candidate;
+        throw input_error(name, fmt::format("no such table in '{}', the folder above, or '{}'", folder.string(),
+                                            sensor_folder().string()));
+    }
+
+    fs::path sensor_file_;
+    std::map<std::string, CsvTable> tables_;
+};
+
+/// Response of one band from a table `band,wavelength_um,response`, scaled to a peak of 1.
+Spectrum measured_response(const CsvTable& table, const std::string& band) {
+    const std::size_t name = table.column("band");
+    const auto wavelength_um = table.numbers("wavelength_um"), response = table.numbers("response");
+    Spectrum s{Quantity::Response, {}, {}};
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        if (table.rows[i][name] != band) continue;
+        const std::string place = fmt::format("{}:{}", table.path, table.row_lines[i]);
+        if (!(wavelength_um[i] > (s.lambda_um.empty() ? 0.0 : s.lambda_um.back())))
+            throw input_error(place, fmt::format("wavelength {} of band '{}' does not ascend", wavelength_um[i], band));
+        if (!(response[i] >= 0.0)) throw input_error(place, fmt::format("response {}, expected at least 0", response[i]));
+        s.lambda_um.push_back(wavelength_um[i]);
+        s.value.push_back(response[i]);
+    }
+    const double peak = s.value.empty() ? 0.0 : *std::max_element(s.value.begin(), s.value.end());
+    if (s.value.size() < 2 || !(peak > 0.0)) throw input_error(table.path, fmt::format("no response of a band '{}'", band));
+    for (double& r : s.value) r /= peak;
+    return s;
+}
+
+void read_response(const Node& node, const std::vector<double>& edges_um, Tables& tables, Band& band) {
+    const std::string srf = node.choice("srf", "nominal", {"nominal", "measured"});
+    const std::string shape = node.choice("srf_shape", "boxcar", {"boxcar", "gaussian"});
+    const Node file = srf == "measured" ? node.required_child("srf_file") : node.child("srf_file");
+    const std::string column = node.text("srf_band", band.id);
+    band.measured_response = srf == "measured";
+    if (!band.measured_response) {
+        band.response = shape == "boxcar" ? boxcar(edges_um[0], edges_um[1]) : gaussian(band.centre_um, band.fwhm_um);
+        band.response_source = fmt::format("{} {:g} - {:g} um", shape, edges_um[0], edges_um[1]);
+        return;
+    }
+    if (!file.present()) return;
+    band.response_source = fmt::format("{}, band {}", file.as_text(""), column);
+    try {
+        band.response = measured_response(tables.open(file.as_text("")), column);
+    } catch (const Error& problem) {
+        file.report(problem.what());
+    }
+}
+
+Noise read_noise(const Node& node) {
+    Noise noise;
+    if (!node.present()) return noise;
+    static_cast<void>(node.required_child("kind"));
+    const std::string kind = node.choice("kind", "none", {"none", "nedt", "snr", "snr_at_albedo"});
+    if (kind == "nedt") {
+        noise.kind = Noise::Kind::NoiseEquivalentTemperature;
+        noise.value = node.required_child("value_k").as_number(0.0, Range::positive());
+        noise.at_temperature_K = node.number("at_k", noise.at_temperature_K, Range::positive());
+    } else if (kind == "snr" || kind == "snr_at_albedo") {
+        noise.kind = kind == "snr" ? Noise::Kind::SignalToNoise : Noise::Kind::SignalToNoiseAtAlbedo;
+        noise.value = node.required_child("value").as_number(1.0, Range::positive());
+        if (kind == "snr") noise.at_radiance = node.optional_number("at_radiance_w_m2_sr_um", Range::positive());
+        if (kind == "snr_at_albedo") noise.at_albedo = node.required_child("at_albedo").as_number(1.0, Range::positive());
+    }
+    node.ignore("note");
+    node.finish();
+    return noise;
+}
+
+std::optional<double> read_saturation(const Node& node, const Band& band) {
+    const auto radiance = node.optional_number("radiance_w_m2_sr_um", Range::positive());
+    const auto temperature_K = node.optional_number("temperature_k", Range::positive());
+    for (const char* key : {"albedo", "high_gain_w_m2_sr_um", "l1b_limit_temperature_k", "low_gain_w_m2_sr_um",
+                            "minimum_w_m2_sr_band", "nominal_gain_temperature_k", "note", "radiance_w_m2_sr_band"})
+        node.ignore(key);
+    node.finish();
+    if (radiance || !temperature_K || band.response.value.empty()) return radiance;
+    return radiometry::band_mean_radiance(*temperature_K, band.response);
+}
+
+/// Group named by a band; "all", or nothing, means the only one there is.
+std::string read_group_name(const Node& node, const Sensor& sensor) {
+    const std::string name = node.text("group", "all");
+    if (name == "all" && sensor.groups.size() == 1) return sensor.groups.front().id;
+    std::vector<std::string> ids;
+    for (const auto& group : sensor.groups) ids.push_back(group.id);
+    if (std::find(ids.begin(), ids.end(), name) == ids.end())
+        node.child("group").report(
+            fmt::format("no group '{}' in geometry.groups; there are {}", name, fmt::join(ids, ", ")));
+    return name;
+}
+
+Band read_band(const Node& node, std::optional<int> bits, const Sensor& sensor, Tables& tables) {
+    Band band;
+    band.id = node.required_child("id").as_text("");
+    band.group = read_group_name(node, sensor);
+    band.centre_um = node.required_child("center_um").as_number(1.0, Range::positive());
+    static_cast<void>(node.required_child("edges_um"));
+    auto edges_um = node.numbers("edges_um", 2);
+    if (!edges_um.empty() && !(edges_um[0] > 0.0 && edges_um[0] < edges_um[1]))
+        node.child("edges_um").report(fmt::format("[{:g}, {:g}] um, expected 0 < lower < upper", edges_um[0], edges_um[1]));
+    if (edges_um.empty()) edges_um = {band.centre_um, band.centre_um};  // reported above
+    band.fwhm_um = edges_um[1] - edges_um[0];
+    read_response(node, edges_um, tables, band);
+    band.noise = read_noise(node.child("noise"));
+    band.saturation_radiance_W_m2_sr_um = read_saturation(node.child("saturation"), band);
+    band.bits = bits;
+    if (const Node own = node.child("bits"); own.present())
+        band.bits = static_cast<int>(own.as_integer(16, Range::between(1, 32)));
+    for (const char* key : {"derived", "detector", "dual_gain", "gain", "minimum_temperature_k", "noise_requirement_k",
+                            "thermal_constants", "time_shared_with"})
+        node.ignore(key);
+    node.finish();
+    return band;
+}
+
+/// Channels of an imaging spectrometer: a table `channel,center_um,fwhm_um` with gaussian responses.
+void read_channel_table(const Node& spectral, std::optional<int> bits, Tables& tables, Sensor& sensor) {
+    static_cast<void>(spectral.choice("srf", "gaussian", {"gaussian"}));
+    const Node file = spectral.required_child("bands_file");
+    const std::string group = read_group_name(spectral, sensor);
+    for (const char* key : {"alternative_bands_file", "channels", "kind", "range_um", "spectrometers", "srf_rule"})
+        spectral.ignore(key);
+    spectral.finish();
+    if (!file.present()) return;
+    try {
+        const CsvTable& table = tables.open(file.as_text(""));
+        const std::size_t name = table.column("channel");
+        const auto centre_um = table.numbers("center_um"), fwhm_um = table.numbers("fwhm_um");
+        for (std::size_t i = 0; i < table.rows.size(); ++i) {
+            if (!(fwhm_um[i] > 0.0) || !(centre_um[i] > 1.5 * fwhm_um[i]))
+                throw input_error(
+                    fmt::format("{}:{}", table.path, table.row_lines[i]),
+                    fmt::format("centre {} um, width {} um: expected a positive channel", centre_um[i], fwhm_um[i]));
+            Band band;
+            band.id = table.rows[i][name];
+            band.group = group;
+            band.centre_um = centre_um[i];
+            band.fwhm_um = fwhm_um[i];
+            band.response = gaussian(centre_um[i], fwhm_um[i]);
+            band.response_source = fmt::format("gaussian, {}", file.as_text(""));
+            band.bits = bits;
+            sensor.bands.push_back(std::move(band));
+        }
+    } catch (const Error& problem) {
+        file.report(problem.what());
+    }
+}
+
+}  // namespace
+
+void read_bands(const Node& root, std::optional<int> bits, Sensor& sensor) {
+    Tables tables(sensor.source_path);
+    if (const Node spectral = root.child("spectral"); spectral.present()) {
+        read_channel_table(spectral, bits, tables, sensor);
+        return;
+    }
+    const Node list = root.required_child("bands");
+    for (const Node& node : list.items()) {
+        Band band = read_band(node, bits, sensor, tables);
+        if (sensor.band_index(band.id) >= 0) node.report(fmt::format("band '{}' is given twice", band.id));
+        sensor.bands.push_back(std::move(band));
+    }
+    if (list.present() && sensor.bands.empty()) list.report("expected at least one band");
+}
+
+}  // namespace pyroscene::sensors

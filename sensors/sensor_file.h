@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "config/yaml.h"
+#include "sensors/sensor.h"
+
+// Parts of the sensor file reader; load_sensor() of sensor.h is the way in.
+namespace pyroscene::sensors {
+
+/// Reads one file of schema pyroscene-sensor/1. Throws one input error with all its problems.
+Sensor read_sensor_file(const std::filesystem::path& path);
+
+/// Fills sensor.bands from `bands` or `spectral` of the file. Needs sensor.groups and sensor.source_path.
+/// \param bits  of digitisation, for the bands that give none of their own
+void read_bands(const config::Node& root, std::optional<int> bits, Sensor& sensor);
+
+}  // namespace pyroscene::sensors
