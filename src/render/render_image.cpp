@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "render/band_output.h"
+#include "render/parallel.h"
+#include "render/pixel.h"
+#include "render/scene.h"
+
+namespace pyroscene::render {
+namespace {
+
+constexpr int kTileSamples = 64;  // pixels a thread renders before it writes them out plane by plane
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+void check_request(const ImageRequest& request) {
+    if (request.samples < 1 || request.lines < 1 || request.rays_per_pixel < 1) {
+        throw input_error("image", fmt::format("{} x {} pixels of {} rays, expected at least one of each", request.samples,
+                                               request.lines, request.rays_per_pixel));
+    }
+    if (request.ray_weight.size() != static_cast<std::size_t>(request.rays_per_pixel)) {
+        throw input_error("image", fmt::format("{} ray weights, expected one for each of {} rays per pixel",
+                                               request.ray_weight.size(), request.rays_per_pixel));
+    }
+    if (!request.rays) throw input_error("image", "no source of rays");
+}
+
+RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request) {
+    RadianceImage image;
+    image.samples = request.samples;
+    image.lines = request.lines;
+    image.bands = scene.spectral->band_count();
+    const std::size_t pixels = static_cast<std::size_t>(request.samples) * static_cast<std::size_t>(request.lines);
+    const std::size_t cube = pixels * static_cast<std::size_t>(image.bands);
+    make_large(image.radiance_W_m2_sr_um, cube);
+    if (request.terms) {
+        for (auto& term : image.terms) make_large(term, cube);
+    }
+    for (auto* plane : {&image.hit_x_m, &image.hit_y_m, &image.hit_z_m}) plane->resize(pixels);
+    for (auto* plane : {&image.coverage, &image.flame_fraction, &image.front_fraction, &image.scar_fraction,
+                        &image.background_fraction, &image.flame_temperature_K, &image.ground_temperature_K,
+                        &image.radiant_exitance_W_m2}) {
+        plane->resize(pixels);
+    }
+    return image;
+}
+
+void write_truth(const PixelTruth& truth, std::size_t at, RadianceImage& image) {
+    const double covered = truth.coverage;
+    const auto share = [&](double sum) { return covered > 0.0 ? sum / covered : static_cast<double>(kNaN); };
+    image.coverage[at] = static_cast<float>(covered);
+    image.hit_x_m[at] = share(truth.hit_m.x);
+    image.hit_y_m[at] = share(truth.hit_m.y);
+    image.hit_z_m[at] = share(truth.hit_m.z);
+    image.flame_fraction[at] = static_cast<float>(share(truth.flame));
+    image.front_fraction[at] = static_cast<float>(share(truth.front));
+    image.scar_fraction[at] = static_cast<float>(share(truth.scar));
+    image.background_fraction[at] = static_cast<float>(share(truth.background));
+    image.radiant_exitance_W_m2[at] = static_cast<float>(share(truth.exitance_W_m2));
+    const auto temperature = [](double T4_sum, double weight) {
+        return weight > 0.0 ? static_cast<float>(std::sqrt(std::sqrt(T4_sum / weight))) : kNaN;
+    };
+    image.flame_temperature_K[at] = temperature(truth.flame_T4, truth.flame);
+    image.ground_temperature_K[at] = temperature(truth.ground_T4, truth.front + truth.scar + truth.background);
+}
+
+/// Renders tiles: kTileSamples pixels of one line. One per thread.
+class TileRenderer {
+public:
+    TileRenderer(const PreparedScene& prepared, const ImageRequest& request)
+        : request_(request),
+          bands_(prepared.scene.spectral->band_count()),
+          quantities_(request.terms ? 1 + kTermCount : 1),
+          pixel_(prepared),
+          output_(prepared, request.terms),
+          rays_(static_cast<std::size_t>(kTileSamples) * static_cast<std::size_t>(request.rays_per_pixel)),
+          buffer_(static_cast<std::size_t>(kTileSamples) * static_cast<std::size_t>(quantities_ * bands_)) {}
+
+    void render(int line, int begin, int end, RadianceImage& image) {
+        const auto rays_per_pixel = static_cast<std::size_t>(request_.rays_per_pixel);
+        const std::span<SceneRay> rays(rays_.data(), static_cast<std::size_t>(end - begin) * rays_per_pixel);
+        request_.rays(line, begin, end, rays);
+        for (int sample = begin; sample < end; ++sample) {
+            pixel_.begin();
+            for (std::size_t r = 0; r < rays_per_pixel; ++r) {
+                pixel_.add_ray(rays[static_cast<std::size_t>(sample - begin) * rays_per_pixel + r], request_.ray_weight[r]);
+            }
+            pixel_.finish();
+            const PixelTruth& truth = pixel_.truth();
+            write_truth(truth, index(image, line, sample), image);
+            float* out = buffer_.data() + static_cast<std::ptrdiff_t>(sample - begin) * (quantities_ * bands_);
+            if (!(truth.coverage > 0.0)) {
+                std::fill(out, out + quantities_ * bands_, kNaN);
+                continue;
+            }
+            PixelView view;
+            if (output_.needs_view() && request_.view) view = request_.view(line, sample, truth.hit_m / truth.coverage);
+            output_.compute(pixel_, view, out, out + bands_);
+        }
+        write_planes(line, begin, end, image);
+    }
+
+private:
+    static std::size_t index(const RadianceImage& image, int line, int sample) {
+        return static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
+    }
+
+    /// From [pixel][quantity][band] of the tile to [band][line][sample] of the image: runs of a tile's length.
+    void write_planes(int line, int begin, int end, RadianceImage& image) const {
+        const std::size_t plane = index(image, image.lines, 0), first = index(image, line, begin);
+        for (int q = 0; q < quantities_; ++q) {
+            float* cube = q == 0 ? image.radiance_W_m2_sr_um.data() : image.terms[static_cast<std::size_t>(q - 1)].data();
+            transpose(buffer_.data() + static_cast<std::ptrdiff_t>(q) * bands_, quantities_ * bands_, end - begin, bands_,
+                      cube + first, plane);
+        }
+    }
+
+    static void transpose(const float* from, int from_stride, int pixels, int bands, float* to, std::size_t to_stride) {
+        for (int b = 0; b < bands; ++b) {
+            float* row = to + static_cast<std::size_t>(b) * to_stride;
+            for (int p = 0; p < pixels; ++p) row[p] = from[static_cast<std::ptrdiff_t>(p) * from_stride + b];
+        }
+    }
+
+    const ImageRequest& request_;
+    int bands_, quantities_;
+    Pixel pixel_;
+    BandOutput output_;
+    std::vector<SceneRay> rays_;
+    std::vector<float> buffer_;  ///< [pixel of the tile][total, terms...][band]
+};
+
+}  // namespace
+
+RadianceImage render_image(const RenderScene& scene, const GroundIrradiance* flame_light, const ImageRequest& request,
+                           const Monitor& monitor) {
+    check_scene(scene);
+    check_request(request);
+    const PreparedScene prepared(scene, flame_light);
+    RadianceImage image = empty_image(scene, request);
+
+    tbb::enumerable_thread_specific<TileRenderer> renderers([&] { return TileRenderer(prepared, request); });
+    Progress progress(monitor, request.lines);
+    tbb::parallel_for(tbb::blocked_range<int>(0, request.lines, 1), [&](const tbb::blocked_range<int>& lines) {
+        TileRenderer& renderer = renderers.local();
+        for (int line = lines.begin(); line != lines.end(); ++line) {
+            for (int sample = 0; sample < request.samples; sample += kTileSamples) {
+                progress.stop_if_cancelled();
+                renderer.render(line, sample, std::min(sample + kTileSamples, request.samples), image);
+            }
+            progress.advance();
+        }
+    });
+    return image;
+}
+
+}  // namespace pyroscene::render

@@ -58,20 +58,25 @@ struct RenderScene {
 
 /// Settings of the light that flames throw on the ground.
 struct GroundLightSettings {
-    int directions = 64;             ///< samples of the hemisphere
-    double reach_m = 500.0;          ///< ground farther than this from any flame receives none
+    int directions = 64;             ///< vertical planes around a receiver; each is cut into strata of elevation
+    double reach_m = 500.0;          ///< a flame farther away than this does not count
 };
 
-/// Irradiance of the ground by flames, independent of any camera: E[receiver cell][lambda], on the map grid of the terrain.
+/// Light on the ground near flames, independent of any camera, on the map grid of the terrain. Irradiances are means over
+/// the cell, on its slope: from flames, and from the sky as far as flames and terrain let it through. Cells without a row
+/// receive nothing from flames and see the whole sky.
 struct GroundIrradiance {
     MapGrid grid;
-    std::vector<std::int32_t> row_of_cell;  ///< [map cell] row into `irradiance`, -1 = none
-    std::vector<float> irradiance_W_m2_um;  ///< [row][lambda]
+    std::vector<std::int32_t> row_of_cell;          ///< [map cell] row into the arrays below, -1 = none
     int lambda_count = 0;
+    int stride = 0;                                 ///< floats per row, lambda_count padded with zeros to whole vectors
+    std::vector<float> irradiance_W_m2_um;          ///< [row][lambda] by flames
+    std::vector<float> sky_irradiance_W_m2_um;      ///< [row][lambda] diffuse sun; empty at night
+    std::vector<float> thermal_irradiance_W_m2_um;  ///< [row][lambda] thermal sky and glowing slopes; empty if none
 };
 
 /// One bounce: hemisphere quadrature at each terrain cell near flames, through the flame field, occluded by terrain.
-/// Deterministic for any thread count.
+/// Deterministic for any thread count. Method and accuracy: docs/physics-render.md.
 GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSettings& settings, const Monitor& monitor = {});
 
 /// View geometry of one pixel at the ground, for the atmosphere.

@@ -1,0 +1,288 @@
+#include "render/terrain_mesh.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/error.h"
+
+namespace pyroscene::render {
+namespace {
+
+constexpr int kMaximumGridEdge = 16384;  // vertices; Embree counts them in 15 bits
+constexpr double kMargin_m = 0.05;       // play around the scene box, far above the rounding of float32
+
+/// Index of the raster cell that vertex line `v` of n + 2 stands on or next to, and the weights of it and its inner neighbour.
+struct VertexSource {
+    int cell, inner;
+    double weight_cell, weight_inner;
+};
+
+VertexSource vertex_source(int v, int n) {
+    if (v == 0) return {0, std::min(1, n - 1), 1.5, -0.5};  // the rim continues the slope of the last two centres
+    if (v == n + 1) return {n - 1, std::max(0, n - 2), 1.5, -0.5};
+    return {v - 1, v - 1, 1.0, 0.0};
+}
+
+/// Offset of vertex line `v` from the raster's edge in cells: 0, 0.5, 1.5, ..., n - 0.5, n.
+double vertex_offset(int v, int n) { return v == 0 ? 0.0 : v == n + 1 ? static_cast<double>(n) : v - 0.5; }
+
+/// Heights with every hole filled from its already filled neighbours, so that the mesh is finite everywhere; what lies over
+/// a hole is dropped again when a ray hits it.
+std::vector<float> without_holes(const Raster<float>& height_m, bool& has_holes) {
+    std::vector<float> filled = height_m.values;
+    const int rows = height_m.grid.rows, cols = height_m.grid.cols;
+    has_holes = std::any_of(filled.begin(), filled.end(), [](float h) { return !std::isfinite(h); });
+    if (!has_holes) return filled;
+    if (std::none_of(filled.begin(), filled.end(), [](float h) { return std::isfinite(h); })) return filled;
+
+    for (bool open = true; open;) {
+        open = false;
+        const std::vector<float> before = filled;
+        for (int r = 0; r < rows; ++r) {
+            for (int c = 0; c < cols; ++c) {
+                float& h = filled[height_m.grid.index(r, c)];
+                if (std::isfinite(h)) continue;
+                double sum = 0.0;
+                int count = 0;
+                for (int dr = -1; dr <= 1; ++dr) {
+                    for (int dc = -1; dc <= 1; ++dc) {
+                        if (!height_m.grid.contains(r + dr, c + dc)) continue;
+                        const float near = before[height_m.grid.index(r + dr, c + dc)];
+                        if (std::isfinite(near)) sum += near, ++count;
+                    }
+                }
+                if (count > 0) h = static_cast<float>(sum / count);
+                else open = true;
+            }
+        }
+    }
+    return filled;
+}
+
+}  // namespace
+
+struct TerrainMesh::Impl {
+    MapGrid grid;
+    std::vector<std::uint8_t> hole;  ///< per cell, empty when there is none
+    Vec3 centre;                     ///< origin of the float32 frame, scene frame
+    Vec3 lower, upper;               ///< scene box, scene frame
+    double steepest = 0.0;
+    const float* vertices = nullptr;  ///< Embree's buffer, [row][col] of (rows + 2) x (cols + 2)
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    ~Impl() {
+        if (scene != nullptr) rtcReleaseScene(scene);
+        if (device != nullptr) rtcReleaseDevice(device);
+    }
+
+    [[nodiscard]] bool is_hole(double x_m, double y_m) const noexcept {
+        const int col = std::clamp(static_cast<int>((x_m - lower.x) / grid.cell_m), 0, grid.cols - 1);
+        const int row = std::clamp(static_cast<int>((upper.y - y_m) / grid.cell_m), 0, grid.rows - 1);
+        return hole[grid.index(row, col)] != 0;
+    }
+
+    /// Drops hits over cells without height (Embree calls it for every candidate hit).
+    static void reject_holes(const RTCFilterFunctionNArguments* args) {
+        const auto& self = *static_cast<const Impl*>(args->geometryUserPtr);
+        const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);  // N == 1: rays are traced one by one
+        const double x_m = self.centre.x + ray->org_x + static_cast<double>(ray->tfar) * ray->dir_x;
+        const double y_m = self.centre.y + ray->org_y + static_cast<double>(ray->tfar) * ray->dir_y;
+        if (args->valid[0] == -1 && self.is_hole(x_m, y_m)) args->valid[0] = 0;
+    }
+
+    void build(const Raster<float>& height_m, Vec3 scene_origin_m);
+    void add_geometry(const std::vector<float>& points);
+    bool clip(Vec3 start, Vec3 direction, double& near_m, double& far_m) const noexcept;
+};
+
+void TerrainMesh::Impl::build(const Raster<float>& height_m, Vec3 scene_origin_m) {
+    grid = height_m.grid;
+    if (grid.cols < 1 || grid.rows < 1 || !(grid.cell_m > 0.0)) {
+        throw input_error("terrain", "the raster has no cells; expected at least one");
+    }
+    bool has_holes = false;
+    const std::vector<float> heights = without_holes(height_m, has_holes);
+    if (!std::isfinite(heights.front())) throw input_error("terrain", "no cell has a height; expected at least one");
+    if (has_holes) {
+        hole.resize(grid.size());
+        std::transform(height_m.values.begin(), height_m.values.end(), hole.begin(),
+                       [](float h) { return static_cast<std::uint8_t>(!std::isfinite(h)); });
+    }
+
+    const auto height_of = [&](const VertexSource& row, const VertexSource& col) {
+        const auto at = [&](int r, int c) { return static_cast<double>(heights[grid.index(r, c)]); };
+        return row.weight_cell * (col.weight_cell * at(row.cell, col.cell) + col.weight_inner * at(row.cell, col.inner)) +
+               row.weight_inner * (col.weight_cell * at(row.inner, col.cell) + col.weight_inner * at(row.inner, col.inner));
+    };
+    const int width = grid.cols + 2, height = grid.rows + 2;
+    std::vector<double> z(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (int r = 0; r < height; ++r) {
+        const VertexSource row = vertex_source(r, grid.rows);
+        for (int c = 0; c < width; ++c) {
+            const double h = height_of(row, vertex_source(c, grid.cols));
+            z[static_cast<std::size_t>(r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c)] = h;
+            lowest = std::min(lowest, h), highest = std::max(highest, h);
+        }
+    }
+    lower = {grid.west_m - scene_origin_m.x, grid.south_m() - scene_origin_m.y, lowest};
+    upper = {grid.east_m() - scene_origin_m.x, grid.north_m - scene_origin_m.y, highest};
+    centre = 0.5 * (lower + upper);
+
+    std::vector<float> points;
+    points.reserve(z.size() * 3);
+    std::size_t i = 0;
+    for (int r = 0; r < height; ++r) {
+        const double y = upper.y - vertex_offset(r, grid.rows) * grid.cell_m;
+        for (int c = 0; c < width; ++c, ++i) {
+            const double x = lower.x + vertex_offset(c, grid.cols) * grid.cell_m;
+            for (const double v : {x - centre.x, y - centre.y, z[i] - centre.z}) points.push_back(static_cast<float>(v));
+            const auto slope_to = [&](std::size_t other, double run_m) { return std::abs(z[i] - z[other]) / run_m; };
+            if (c > 0) steepest = std::max(steepest, slope_to(i - 1, (c == 1 || c == width - 1 ? 0.5 : 1.0) * grid.cell_m));
+            if (r > 0) {
+                const double run_m = (r == 1 || r == height - 1 ? 0.5 : 1.0) * grid.cell_m;
+                steepest = std::max(steepest, slope_to(i - static_cast<std::size_t>(width), run_m));
+            }
+        }
+    }
+    steepest *= std::sqrt(2.0);  // both edges of a facet may climb
+    add_geometry(points);
+}
+
+void TerrainMesh::Impl::add_geometry(const std::vector<float>& points) {
+    device = rtcNewDevice(nullptr);
+    if (device == nullptr) throw runtime_error("terrain", "Embree could not be started");
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
+
+    auto* vertex_buffer = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                      3 * sizeof(float), points.size() / 3));
+    if (vertex_buffer == nullptr) throw runtime_error("terrain", "not enough memory for the terrain mesh");
+    std::copy(points.begin(), points.end(), vertex_buffer);
+    vertices = vertex_buffer;
+
+    const int width = grid.cols + 2, height = grid.rows + 2;
+    std::vector<RTCGrid> tiles;  // neighbours share their border vertices
+    for (int r = 0; r < height - 1; r += kMaximumGridEdge - 1) {
+        for (int c = 0; c < width - 1; c += kMaximumGridEdge - 1) {
+            tiles.push_back({static_cast<unsigned>(r) * static_cast<unsigned>(width) + static_cast<unsigned>(c),
+                             static_cast<unsigned>(width), static_cast<unsigned short>(std::min(kMaximumGridEdge, width - c)),
+                             static_cast<unsigned short>(std::min(kMaximumGridEdge, height - r))});
+        }
+    }
+    auto* tile_buffer = static_cast<RTCGrid*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), tiles.size()));
+    std::copy(tiles.begin(), tiles.end(), tile_buffer);
+
+    rtcSetGeometryUserData(geometry, this);
+    if (!hole.empty()) {
+        rtcSetGeometryIntersectFilterFunction(geometry, &Impl::reject_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, &Impl::reject_holes);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw runtime_error("terrain", "Embree could not build the terrain mesh");
+}
+
+/// Cuts the ray's piece [near, far] to the scene box (slabs). Float32 then only sees numbers of the size of the scene.
+bool TerrainMesh::Impl::clip(Vec3 start, Vec3 direction, double& near_m, double& far_m) const noexcept {
+    const auto slab = [&](double s, double d, double lo, double hi) {
+        if (d == 0.0) return s >= lo && s <= hi;
+        const double a = (lo - s) / d, b = (hi - s) / d;
+        near_m = std::max(near_m, std::min(a, b));
+        far_m = std::min(far_m, std::max(a, b));
+        return true;
+    };
+    return slab(start.x, direction.x, lower.x - kMargin_m, upper.x + kMargin_m) &&
+           slab(start.y, direction.y, lower.y - kMargin_m, upper.y + kMargin_m) &&
+           slab(start.z, direction.z, lower.z - kMargin_m, upper.z + kMargin_m) && near_m <= far_m;
+}
+
+TerrainMesh::TerrainMesh(const Raster<float>& height_m, Vec3 scene_origin_m) : impl_(std::make_unique<Impl>()) {
+    impl_->build(height_m, scene_origin_m);
+}
+TerrainMesh::TerrainMesh(TerrainMesh&&) noexcept = default;
+TerrainMesh::~TerrainMesh() = default;
+
+std::optional<TerrainMesh::Hit> TerrainMesh::intersect(Vec3 start_m, Vec3 end_m) const noexcept {
+    const double segment_m = length(end_m - start_m);
+    if (!(segment_m > 0.0) || !std::isfinite(segment_m)) return std::nullopt;
+    const Vec3 direction = (end_m - start_m) / segment_m;
+    double near_m = 0.0, far_m = segment_m;
+    if (!impl_->clip(start_m, direction, near_m, far_m)) return std::nullopt;
+
+    const Vec3 local = start_m + near_m * direction - impl_->centre;
+    alignas(16) RTCRayHit query{};
+    query.ray.org_x = static_cast<float>(local.x);
+    query.ray.org_y = static_cast<float>(local.y);
+    query.ray.org_z = static_cast<float>(local.z);
+    query.ray.dir_x = static_cast<float>(direction.x);
+    query.ray.dir_y = static_cast<float>(direction.y);
+    query.ray.dir_z = static_cast<float>(direction.z);
+    query.ray.tfar = static_cast<float>(far_m - near_m);
+    query.ray.mask = ~0U;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(impl_->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+
+    Hit hit;
+    hit.distance_m = near_m + static_cast<double>(query.ray.tfar);
+    hit.point_m = start_m + hit.distance_m * direction;
+    hit.normal = normalized(Vec3{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+    if (hit.normal.z < 0.0) hit.normal = -hit.normal;
+    return hit;
+}
+
+bool TerrainMesh::occluded(Vec3 from_m, Vec3 direction, double distance_m) const noexcept {
+    double near_m = 0.0, far_m = distance_m;
+    if (!impl_->clip(from_m, direction, near_m, far_m)) return false;
+    const Vec3 local = from_m + near_m * direction - impl_->centre;
+    alignas(16) RTCRay ray{};
+    ray.org_x = static_cast<float>(local.x);
+    ray.org_y = static_cast<float>(local.y);
+    // A point on the ground must not be shadowed by its own facet: lift it by more than the rounding of float32.
+    ray.org_z = static_cast<float>(local.z + 1e-6 * length(impl_->upper - impl_->lower) + 1e-3);
+    ray.dir_x = static_cast<float>(direction.x);
+    ray.dir_y = static_cast<float>(direction.y);
+    ray.dir_z = static_cast<float>(direction.z);
+    ray.tfar = static_cast<float>(far_m - near_m);
+    ray.mask = ~0U;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(impl_->scene, &context, &ray);
+    return ray.tfar < 0.0F;
+}
+
+double TerrainMesh::height_at(double x_m, double y_m) const noexcept {
+    const MapGrid& grid = impl_->grid;
+    const double col = (x_m - impl_->lower.x) / grid.cell_m, row = (impl_->upper.y - y_m) / grid.cell_m;
+    if (!(col >= 0.0 && col <= grid.cols && row >= 0.0 && row <= grid.rows)) return std::numeric_limits<double>::quiet_NaN();
+    const int c = std::min(static_cast<int>(col + 0.5), grid.cols), r = std::min(static_cast<int>(row + 0.5), grid.rows);
+    const auto fraction = [](double at, int v, int n) {
+        const double begin = vertex_offset(v, n);
+        return (at - begin) / (vertex_offset(v + 1, n) - begin);
+    };
+    const double fx = fraction(col, c, grid.cols), fy = fraction(row, r, grid.rows);
+    const std::size_t width = static_cast<std::size_t>(grid.cols) + 2;
+    const auto z = [&](int dr, int dc) {
+        return static_cast<double>(
+            impl_->vertices[3 * (static_cast<std::size_t>(r + dr) * width + static_cast<std::size_t>(c + dc)) + 2]);
+    };
+    return impl_->centre.z + (1.0 - fy) * ((1.0 - fx) * z(0, 0) + fx * z(0, 1)) + fy * ((1.0 - fx) * z(1, 0) + fx * z(1, 1));
+}
+
+std::array<double, 2> TerrainMesh::height_range_m() const noexcept { return {impl_->lower.z, impl_->upper.z}; }
+double TerrainMesh::steepest_slope() const noexcept { return impl_->steepest; }
+const MapGrid& TerrainMesh::grid() const noexcept { return impl_->grid; }
+
+}  // namespace pyroscene::render

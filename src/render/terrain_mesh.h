@@ -10,7 +10,8 @@
 namespace pyroscene::render {
 
 /// The ground as an Embree grid geometry (ROBUST) with a local origin. Vertices sit at cell centres, with an outer ring on
-/// the raster's rim, so the mesh covers the raster exactly. Cells without height are holes.
+/// the raster's rim, so the mesh covers the raster exactly. Cells without height are holes (exactly these cells:
+/// the surface around them continues to their edge).
 class TerrainMesh {
 public:
     /// \param height_m terrain heights on the map grid  \param scene_origin_m map x, y of the scene frame's origin; z is height
@@ -26,8 +27,13 @@ public:
     [[nodiscard]] std::optional<Hit> intersect(Vec3 start_m, Vec3 end_m) const noexcept;
     /// True when terrain lies between the point and a place `distance_m` away. Thread-safe.
     [[nodiscard]] bool occluded(Vec3 from_m, Vec3 direction, double distance_m) const noexcept;
+    /// Height of the vertices, bilinear in between (within a facet's bend of what `intersect` meets); also defined over
+    /// holes; NaN outside the raster.
+    [[nodiscard]] double height_at(double x_m, double y_m) const noexcept;
     /// {lowest, highest} height [m].
     [[nodiscard]] std::array<double, 2> height_range_m() const noexcept;
+    /// Upper bound of the tangent of any facet's slope: a sun higher than this casts no terrain shadow.
+    [[nodiscard]] double steepest_slope() const noexcept;
     [[nodiscard]] const MapGrid& grid() const noexcept;
 
 private:

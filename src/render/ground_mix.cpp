@@ -1,0 +1,81 @@
+#include "render/ground_mix.h"
+
+namespace pyroscene::render {
+
+GroundMix::GroundMix(const SceneTables& tables)
+    : tables_(&tables),
+      kernels_(&spectral_kernels()),
+      emission_(static_cast<std::size_t>(tables.materials) * static_cast<std::size_t>(tables.planck.row_count()), 0.0F),
+      is_touched_(emission_.size(), 0),
+      reflection_(static_cast<std::size_t>(tables.materials)) {}
+
+void GroundMix::add(int material, double temperature_K, double weight, const GroundLight& light) {
+    const PlanckRows::Lookup found = tables_->planck.at(temperature_K);
+    const int first = material * tables_->planck.row_count() + found.row;
+    for (int j = 0; j < found.count; ++j) {
+        const auto i = static_cast<std::size_t>(first + j);
+        emission_[i] += static_cast<float>(weight) * found.weight[static_cast<std::size_t>(j)];
+        if (is_touched_[i] == 0) {
+            is_touched_[i] = 1;
+            touched_.push_back(static_cast<std::int32_t>(i));
+        }
+    }
+    Reflection& reflection = reflection_[static_cast<std::size_t>(material)];
+    reflection.sun += weight * light.sun_cosine;
+    reflection.open += weight * light.open;
+    for (int j = 0; j < light.row_count; ++j) {
+        const auto row = light.row[static_cast<std::size_t>(j)];
+        const double share = weight * light.weight[static_cast<std::size_t>(j)];
+        bool known = false;
+        for (LitPart& part : lit_) {
+            if (part.row != row || part.material != material) continue;
+            part.weight += share;
+            known = true;
+            break;
+        }
+        if (!known) lit_.push_back({row, material, share});
+    }
+}
+
+void GroundMix::resolve_lit(const LitPart& part, const GroundIrradiance& flame_light, GroundSpectra& out) const {
+    const SceneTables& t = *tables_;
+    const auto offset = static_cast<std::size_t>(part.row) * static_cast<std::size_t>(flame_light.stride);
+    const auto weight = static_cast<float>(part.weight);
+    const float* reflectance = t.reflectance_per_pi[part.material];
+    const auto add = [&](const std::vector<float>& irradiance, GroundSpectra::Part into) {
+        if (irradiance.empty()) return;
+        kernels_->add_product(t.stride, weight, reflectance, irradiance.data() + offset, out.part(into));
+    };
+    add(flame_light.irradiance_W_m2_um, GroundSpectra::FlameLight);
+    add(flame_light.sky_irradiance_W_m2_um, GroundSpectra::Sky);
+    add(flame_light.thermal_irradiance_W_m2_um, GroundSpectra::ThermalSky);
+}
+
+void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out) {
+    const SceneTables& t = *tables_;
+    const int rows = t.planck.row_count();
+    for (const std::int32_t i : touched_) {
+        kernels_->add_product(t.stride, emission_[static_cast<std::size_t>(i)], t.emissivity[i / rows], t.planck.row(i % rows),
+                              out.part(GroundSpectra::Emission));
+        emission_[static_cast<std::size_t>(i)] = 0.0F;
+        is_touched_[static_cast<std::size_t>(i)] = 0;
+    }
+    touched_.clear();
+    for (int m = 0; m < t.materials; ++m) {
+        Reflection& reflection = reflection_[static_cast<std::size_t>(m)];
+        const auto add = [&](const SceneTables::Rows& rows_of, double weight, GroundSpectra::Part into) {
+            const auto w = static_cast<float>(weight);
+            if (w != 0.0F) kernels_->add_rows(t.stride, rows_of[m], t.stride, 1, &w, out.part(into));
+        };
+        if (t.has_sun) add(t.sun, reflection.sun, GroundSpectra::Sun);
+        if (t.has_sky) add(t.sky, reflection.open, GroundSpectra::Sky);
+        if (t.has_thermal_sky) add(t.thermal_sky, reflection.open, GroundSpectra::ThermalSky);
+        reflection = {};
+    }
+    if (flame_light != nullptr) {
+        for (const LitPart& part : lit_) resolve_lit(part, *flame_light, out);
+    }
+    lit_.clear();
+}
+
+}  // namespace pyroscene::render

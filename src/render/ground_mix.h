@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/scene_tables.h"
+
+namespace pyroscene::render {
+
+/// Spectra of the ground-leaving radiance, its parts kept apart: arrays of `stride` floats.
+struct GroundSpectra {
+    enum Part { Emission, Sun, Sky, ThermalSky, FlameLight, kParts };
+
+    explicit GroundSpectra(int stride_floats)
+        : stride(stride_floats), values(static_cast<std::size_t>(kParts) * static_cast<std::size_t>(stride_floats), 0.0F) {}
+    [[nodiscard]] float* part(int p) noexcept { return values.data() + static_cast<std::ptrdiff_t>(p) * stride; }
+    [[nodiscard]] const float* part(int p) const noexcept { return values.data() + static_cast<std::ptrdiff_t>(p) * stride; }
+    void clear() noexcept { std::fill(values.begin(), values.end(), 0.0F); }
+
+    int stride;
+    std::vector<float> values;
+};
+
+/// Light on a piece of ground: the cosine of the sun (0 in shadow) and up to four rows of GroundIrradiance around it;
+/// `open` is the rest of the weight, ground without a row under the whole sky.
+struct GroundLight {
+    double sun_cosine = 0.0;
+    int row_count = 0;
+    std::array<std::int32_t, 4> row{};
+    std::array<double, 4> weight{};
+    double open = 1.0;
+};
+
+/// Ground as plain weights per material, temperature and light, gathered over rays before any wavelength is touched: what
+/// many rays through the same air see costs the arithmetic over wavelengths only once.
+class GroundMix {
+public:
+    explicit GroundMix(const SceneTables& tables);
+
+    /// Ground of one material and temperature that fills `weight` of the view.
+    void add(int material, double temperature_K, double weight, const GroundLight& light);
+    /// Adds the spectra of all that was gathered to `out` and forgets it.
+    void resolve(const GroundIrradiance* flame_light, GroundSpectra& out);
+    [[nodiscard]] bool empty() const noexcept { return touched_.empty(); }
+
+private:
+    struct Reflection {
+        double sun = 0.0, open = 0.0;
+    };
+    struct LitPart {
+        std::int32_t row;
+        int material;
+        double weight;
+    };
+
+    void resolve_lit(const LitPart& part, const GroundIrradiance& flame_light, GroundSpectra& out) const;
+
+    const SceneTables* tables_;
+    const SpectralKernels* kernels_;
+    std::vector<float> emission_;         ///< [material][Planck row] weight
+    std::vector<std::uint8_t> is_touched_;
+    std::vector<std::int32_t> touched_;   ///< indices into emission_, in order of arrival
+    std::vector<Reflection> reflection_;  ///< [material]
+    std::vector<LitPart> lit_;
+};
+
+}  // namespace pyroscene::render

@@ -1,0 +1,173 @@
+#include "render/pixel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "render/light_at.h"
+
+namespace pyroscene::render {
+namespace {
+
+/// Flame of this optical depth hides what lies behind it: exp(-17) = 4e-8.
+constexpr double kOpaqueDepth = 17.0;
+
+double fourth_power(double x) { return x * x * x * x; }
+
+}  // namespace
+
+Pixel::Pixel(const PreparedScene& prepared)
+    : prepared_(&prepared),
+      kernels_(&spectral_kernels()),
+      flame_weight_(static_cast<std::size_t>(prepared.tables.planck.row_count()), 0.0),
+      mix_(prepared.tables),
+      mix_of_ray_(prepared.tables),
+      ground_(prepared.tables.stride),
+      ground_of_ray_(prepared.tables.stride),
+      flame_(static_cast<std::size_t>(prepared.tables.stride), 0.0F),
+      tau_(static_cast<std::size_t>(prepared.tables.stride), 1.0F) {}
+
+void Pixel::begin() {
+    truth_ = {};
+    if (flame_used_) std::fill(flame_.begin(), flame_.end(), 0.0F);
+    if (ground_used_) ground_.clear();
+    flame_used_ = ground_used_ = false;
+}
+
+void Pixel::add_ray(const SceneRay& ray, double weight) {
+    const auto hit = prepared_->scene.terrain->intersect(ray.start_m, ray.end_m);
+    GroundView view;
+    if (!hit || !look_at_ground(*hit, view)) return;
+    truth_.coverage += weight;
+    truth_.hit_m = truth_.hit_m + weight * hit->point_m;
+
+    march(ray.start_m, hit->point_m);
+    const double tau_truth = pieces_.empty() ? 1.0 : flame_truth(weight);
+    add_ground_truth(view, weight * tau_truth);
+    if (pieces_.empty()) add_ground(mix_, view, weight);
+    else if (prepared_->tables.grey) add_ground(mix_, view, weight * add_grey_flame(weight));
+    else add_flame_spectrally(weight, view);
+}
+
+bool Pixel::look_at_ground(const TerrainMesh::Hit& hit, GroundView& view) const {
+    const RenderScene& scene = prepared_->scene;
+    const double x_m = hit.point_m.x + scene.scene_origin_m.x, y_m = hit.point_m.y + scene.scene_origin_m.y;
+    const auto cell = [&](const MapGrid& grid) {
+        return grid.index(std::clamp(static_cast<int>(grid.row_at(y_m)), 0, grid.rows - 1),
+                          std::clamp(static_cast<int>(grid.col_at(x_m)), 0, grid.cols - 1));
+    };
+    const fire::SurfaceField& surface = *scene.surface;
+    const std::size_t fine = cell(surface.grid);
+    view.base_K = surface.base_temperature_K[fine];
+    if (!(view.base_K > 0.0)) return false;  // no data
+    view.front_fraction = std::clamp(surface.front_fraction[fine], 0.0F, 1.0F);
+    view.burned = surface.burned[fine] != 0;
+    view.base_material = view.burned ? scene.optics->burnt_material : scene.cover->values[cell(scene.cover->grid)];
+    if (prepared_->flame_light != nullptr) light_around(*prepared_->flame_light, x_m, y_m, view.light);
+    if (prepared_->tables.has_sun) view.light.sun_cosine = sun_cosine(scene, hit);
+    return true;
+}
+
+void Pixel::march(Vec3 start_m, Vec3 hit_m) {
+    pieces_.clear();
+    double depth = 0.0;
+    const double least = prepared_->tables.least_absorption_per_m;
+    prepared_->flame.march(start_m, hit_m, [&](float T_K, float fill, double length_m) {
+        const double fill_length_m = fill * length_m;
+        if (!pieces_.empty() && pieces_.back().temperature_K == T_K) pieces_.back().fill_length_m += fill_length_m;
+        else pieces_.push_back({T_K, fill_length_m});
+        depth += least * fill_length_m;
+        return depth < kOpaqueDepth;
+    });
+}
+
+/// Opacity, temperature and exitance of the flame on this ray; returns its transmittance.
+double Pixel::flame_truth(double weight) {
+    double tau = 1.0;
+    for (const FlamePiece& piece : pieces_) {
+        const double emitted = -tau * std::expm1(-prepared_->tables.truth_absorption_per_m * piece.fill_length_m);
+        tau -= emitted;
+        truth_.flame += weight * emitted;
+        truth_.flame_T4 += weight * emitted * fourth_power(piece.temperature_K);
+    }
+    return tau;
+}
+
+/// Absorption equal at all wavelengths: emission becomes weights of Planck rows, the ray's transmittance a number.
+double Pixel::add_grey_flame(double weight) {
+    const SceneTables& t = prepared_->tables;
+    double tau = 1.0;
+    for (const FlamePiece& piece : pieces_) {
+        const double emitted = -tau * std::expm1(-t.grey_absorption_per_m * piece.fill_length_m);
+        tau -= emitted;
+        const PlanckRows::Lookup found = t.planck.at(piece.temperature_K);
+        for (int j = 0; j < found.count; ++j) {
+            flame_weight_[static_cast<std::size_t>(found.row + j)] += weight * emitted * found.weight[static_cast<std::size_t>(j)];
+        }
+        const bool first = end_flame_row_ == first_flame_row_;
+        first_flame_row_ = first ? found.row : std::min(first_flame_row_, found.row);
+        end_flame_row_ = std::max(end_flame_row_, found.row + found.count);
+    }
+    return tau;
+}
+
+void Pixel::add_flame_spectrally(double weight, const GroundView& view) {
+    const SceneTables& t = prepared_->tables;
+    std::fill(tau_.begin(), tau_.end(), 1.0F);
+    flame_used_ = true;
+    for (const FlamePiece& piece : pieces_) {
+        const PlanckRows::Lookup found = t.planck.at(piece.temperature_K);
+        kernels_->emit(t.stride, t.absorption_per_m.data(), static_cast<float>(piece.fill_length_m), t.planck.row(found.row),
+                       t.stride, found.count, found.weight.data(), static_cast<float>(weight), tau_.data(), flame_.data());
+    }
+    ground_used_ = true;
+    ground_of_ray_.clear();
+    add_ground(mix_of_ray_, view, weight);
+    mix_of_ray_.resolve(prepared_->flame_light, ground_of_ray_);
+    for (int p = 0; p < GroundSpectra::kParts; ++p) {
+        kernels_->add_product(t.stride, 1.0F, tau_.data(), ground_of_ray_.part(p), ground_.part(p));
+    }
+}
+
+void Pixel::add_ground(GroundMix& mix, const GroundView& view, double weight) const {
+    const double f = view.front_fraction;
+    if (f > 0.0) mix.add(prepared_->scene.optics->burnt_material, prepared_->tables.front_K, weight * f, view.light);
+    if (f < 1.0) mix.add(view.base_material, view.base_K, weight * (1.0 - f), view.light);
+}
+
+void Pixel::add_ground_truth(const GroundView& view, double weight) {
+    const SceneTables& t = prepared_->tables;
+    const double front = weight * view.front_fraction, rest = weight - front;
+    const auto emissivity = [&](int material) { return t.broadband_emissivity[static_cast<std::size_t>(material)]; };
+    const double burnt_emissivity = emissivity(prepared_->scene.optics->burnt_material);
+    truth_.front += front;
+    truth_.exitance_W_m2 += front * burnt_emissivity * kStefanBoltzmann_W_m2_K4 * fourth_power(t.front_K);
+    if (view.burned) {
+        truth_.scar += rest;
+        truth_.exitance_W_m2 += rest * emissivity(view.base_material) * kStefanBoltzmann_W_m2_K4 *
+                                (fourth_power(view.base_K) - fourth_power(t.ambient_K));
+    } else {
+        truth_.background += rest;
+    }
+    truth_.ground_T4 += front * fourth_power(t.front_K) + rest * fourth_power(view.base_K);
+}
+
+void Pixel::finish() {
+    const SceneTables& t = prepared_->tables;
+    truth_.exitance_W_m2 += kStefanBoltzmann_W_m2_K4 * truth_.flame_T4;
+    flame_used_ = flame_used_ || end_flame_row_ > first_flame_row_;
+    for (int row = first_flame_row_; row < end_flame_row_; ++row) {
+        auto& weight = flame_weight_[static_cast<std::size_t>(row)];
+        if (weight == 0.0) continue;
+        const auto w = static_cast<float>(weight);
+        kernels_->add_rows(t.stride, t.planck.row(row), t.stride, 1, &w, flame_.data());
+        weight = 0.0;
+    }
+    first_flame_row_ = end_flame_row_ = 0;
+    if (!mix_.empty()) {
+        ground_used_ = true;
+        mix_.resolve(prepared_->flame_light, ground_);
+    }
+}
+
+}  // namespace pyroscene::render

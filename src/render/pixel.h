@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/flame_march.h"
+#include "render/ground_mix.h"
+#include "render/scene.h"
+#include "render/scene_tables.h"
+
+namespace pyroscene::render {
+
+/// A scene and all that was prepared from it for one image; shared by all threads, constant.
+struct PreparedScene {
+    PreparedScene(const RenderScene& s, const GroundIrradiance* light) : scene(s), flame_light(light), tables(s), flame(*s.flame) {}
+    const RenderScene& scene;
+    const GroundIrradiance* flame_light;  ///< may be null
+    SceneTables tables;
+    FlameMarcher flame;
+};
+
+/// What the rays of one pixel met, as sums of ray weights; opacities and transmittances of flame are those at 4.0 um.
+struct PixelTruth {
+    double coverage = 0.0;
+    Vec3 hit_m;                                              ///< weighted sum
+    double flame = 0.0, front = 0.0, scar = 0.0, background = 0.0;
+    double flame_T4 = 0.0;                                   ///< sum of (tau_i - tau_{i+1}) T^4
+    double ground_T4 = 0.0;                                  ///< sum of tau T^4
+    double exitance_W_m2 = 0.0;
+};
+
+/// Gathers the rays of one pixel. One per thread.
+class Pixel {
+public:
+    explicit Pixel(const PreparedScene& prepared);
+
+    void begin();
+    /// Traces one sub-ray: terrain, flame, ground (eq 4.11 with the ground term).
+    void add_ray(const SceneRay& ray, double weight);
+    /// Turns all gathered weights into the spectra `flame` and `ground`: sums over covered rays.
+    void finish();
+
+    [[nodiscard]] const PixelTruth& truth() const noexcept { return truth_; }
+    [[nodiscard]] const float* flame() const noexcept { return flame_.data(); }
+    [[nodiscard]] const GroundSpectra& ground() const noexcept { return ground_; }
+
+private:
+    struct FlamePiece {
+        float temperature_K;
+        double fill_length_m;  ///< length x filled fraction
+    };
+    /// What a ray sees of the ground, before flame in front of it.
+    struct GroundView {
+        int base_material = 0;
+        double base_K = 0.0, front_fraction = 0.0;
+        bool burned = false;
+        GroundLight light;
+    };
+
+    bool look_at_ground(const TerrainMesh::Hit& hit, GroundView& view) const;
+    void march(Vec3 start_m, Vec3 hit_m);
+    double flame_truth(double weight);
+    double add_grey_flame(double weight);
+    void add_flame_spectrally(double weight, const GroundView& view);
+    void add_ground(GroundMix& mix, const GroundView& view, double weight) const;
+    void add_ground_truth(const GroundView& view, double weight);
+
+    const PreparedScene* prepared_;
+    const SpectralKernels* kernels_;
+    PixelTruth truth_;
+    std::vector<FlamePiece> pieces_;        ///< of the current ray, neighbours of one temperature merged
+    std::vector<double> flame_weight_;      ///< [Planck row] of grey flame
+    int first_flame_row_ = 0, end_flame_row_ = 0;
+    GroundMix mix_, mix_of_ray_;
+    GroundSpectra ground_, ground_of_ray_;
+    std::vector<float> flame_, tau_;
+    bool flame_used_ = false, ground_used_ = false;
+};
+
+}  // namespace pyroscene::render

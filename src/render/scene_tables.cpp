@@ -1,0 +1,142 @@
+#include "render/scene_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/constants.h"
+#include "base/error.h"
+
+namespace pyroscene::render {
+namespace {
+
+constexpr double kTruthWavelength_um = 4.0;
+
+void require(bool holds, std::string_view subject, std::string_view message) {
+    if (!holds) throw input_error(subject, message);
+}
+
+void check_length(std::size_t found, std::size_t expected, std::string_view what) {
+    require(found == expected, "scene", fmt::format("{} has {} values, expected {}", what, found, expected));
+}
+
+/// {lowest, highest} temperature of ground and flame.
+std::pair<double, double> temperature_range_K(const RenderScene& scene) {
+    double lowest = std::min(scene.surface->front_temperature_K, scene.surface->ambient_temperature_K);
+    double highest = std::max(scene.surface->front_temperature_K, scene.surface->ambient_temperature_K);
+    for (const float T_K : scene.surface->base_temperature_K) {
+        if (!(T_K > 0.0F)) continue;  // NaN = no data
+        lowest = std::min(lowest, static_cast<double>(T_K));
+        highest = std::max(highest, static_cast<double>(T_K));
+    }
+    if (!scene.flame->empty()) {
+        const auto [low, high] = scene.flame->temperature_range_K();
+        lowest = std::min(lowest, low);
+        highest = std::max(highest, high);
+    }
+    return {lowest, highest};
+}
+
+std::vector<double> exact_temperatures_K(const RenderScene& scene) {
+    std::vector<double> exact{scene.surface->ambient_temperature_K, scene.surface->front_temperature_K};
+    if (!scene.flame->empty()) {
+        const auto [low, high] = scene.flame->temperature_range_K();
+        if (low == high) exact.push_back(low);
+    }
+    // The fields hold floats: a temperature is recognised after that rounding.
+    for (double& T_K : exact) T_K = static_cast<float>(T_K);
+    std::sort(exact.begin(), exact.end());
+    exact.erase(std::unique(exact.begin(), exact.end()), exact.end());
+    return exact;
+}
+
+template <class Value>
+SceneTables::Rows rows(const SceneTables& t, Value&& value) {
+    SceneTables::Rows r;
+    r.stride = t.stride;
+    r.values.assign(static_cast<std::size_t>(t.materials) * static_cast<std::size_t>(t.stride), 0.0F);
+    for (int m = 0; m < t.materials; ++m) {
+        for (int l = 0; l < t.lambdas; ++l) {
+            r.values[static_cast<std::size_t>(m) * static_cast<std::size_t>(t.stride) + static_cast<std::size_t>(l)] =
+                static_cast<float>(value(m, l));
+        }
+    }
+    return r;
+}
+
+bool any_positive(const std::vector<float>& values) {
+    return std::any_of(values.begin(), values.end(), [](float v) { return v > 0.0F; });
+}
+
+}  // namespace
+
+void check_scene(const RenderScene& scene) {
+    require(scene.terrain && scene.surface && scene.cover && scene.flame && scene.optics && scene.spectral && scene.atmosphere,
+            "scene", "terrain, surface, cover, flame, optics, spectral grid and atmosphere must all be given");
+    const SceneOptics& optics = *scene.optics;
+    const auto lambdas = static_cast<std::size_t>(optics.lambda_count), materials = static_cast<std::size_t>(optics.material_count);
+    require(optics.lambda_count > 0, "scene", "the optics hold no wavelength, expected at least one");
+    check_length(static_cast<std::size_t>(scene.spectral->size()), lambdas, "the spectral grid");
+    check_length(optics.lambda_um.size(), lambdas, "lambda_um of the optics");
+    check_length(optics.flame_absorption_per_m.size(), lambdas, "flame_absorption_per_m");
+    check_length(optics.reflectance.size(), lambdas * materials, "reflectance");
+    check_length(static_cast<std::size_t>(scene.atmosphere->lambda_count()), lambdas, "the atmosphere");
+    require(optics.burnt_material >= 0 && optics.burnt_material < optics.material_count, "scene",
+            fmt::format("burnt_material is {}, expected one of {} materials", optics.burnt_material, optics.material_count));
+    check_length(scene.surface->base_temperature_K.size(), scene.surface->grid.size(), "base_temperature_K");
+    check_length(scene.surface->front_fraction.size(), scene.surface->grid.size(), "front_fraction");
+    check_length(scene.surface->burned.size(), scene.surface->grid.size(), "burned");
+    check_length(scene.cover->values.size(), scene.cover->grid.size(), "cover");
+    const auto highest = std::max_element(scene.cover->values.begin(), scene.cover->values.end());
+    require(highest == scene.cover->values.end() || *highest < optics.material_count, "scene",
+            fmt::format("cover holds material {}, expected 0 to {}",
+                        highest == scene.cover->values.end() ? 0 : static_cast<int>(*highest), optics.material_count - 1));
+}
+
+SceneTables::SceneTables(const RenderScene& scene) {
+    const SceneOptics& optics = *scene.optics;
+    const radiometry::ViewAtmosphere& air = *scene.atmosphere;
+    lambdas = optics.lambda_count;
+    stride = padded(lambdas);
+    materials = optics.material_count;
+    front_K = static_cast<float>(scene.surface->front_temperature_K);
+    ambient_K = static_cast<float>(scene.surface->ambient_temperature_K);
+    const auto [lowest, highest] = temperature_range_K(scene);
+    planck = PlanckRows(optics.lambda_um, stride, lowest, highest, exact_temperatures_K(scene));
+
+    absorption_per_m = optics.flame_absorption_per_m;
+    absorption_per_m.resize(static_cast<std::size_t>(stride), absorption_per_m.back());
+    least_absorption_per_m = *std::min_element(absorption_per_m.begin(), absorption_per_m.end());
+    grey = optics.grey;
+    grey_absorption_per_m = absorption_per_m.front();
+    const auto nearest = std::min_element(optics.lambda_um.begin(), optics.lambda_um.end(), [](double a, double b) {
+        return std::abs(a - kTruthWavelength_um) < std::abs(b - kTruthWavelength_um);
+    });
+    truth_absorption_per_m = absorption_per_m[static_cast<std::size_t>(nearest - optics.lambda_um.begin())];
+
+    has_sun = scene.to_sun.z > 0.0 && any_positive(air.direct_normal_irradiance_W_m2_um);
+    has_sky = any_positive(air.diffuse_irradiance_W_m2_um);
+    has_thermal_sky = any_positive(air.thermal_irradiance_W_m2_um);
+    const auto reflectance = [&](int m, int l) {
+        return static_cast<double>(optics.reflectance[static_cast<std::size_t>(m) * static_cast<std::size_t>(lambdas) +
+                                                      static_cast<std::size_t>(l)]);
+    };
+    const auto reflected = [&](const std::vector<float>& irradiance) {
+        return rows(*this, [&](int m, int l) { return reflectance(m, l) / kPi * irradiance[static_cast<std::size_t>(l)]; });
+    };
+    emissivity = rows(*this, [&](int m, int l) { return 1.0 - reflectance(m, l); });
+    reflectance_per_pi = rows(*this, [&](int m, int l) { return reflectance(m, l) / kPi; });
+    sun = reflected(air.direct_normal_irradiance_W_m2_um);
+    sky = reflected(air.diffuse_irradiance_W_m2_um);
+    thermal_sky = reflected(air.thermal_irradiance_W_m2_um);
+    for (int m = 0; m < materials; ++m) {
+        double sum = 0.0;
+        for (int l = 0; l < lambdas; ++l) sum += 1.0 - reflectance(m, l);
+        broadband_emissivity.push_back(sum / lambdas);
+    }
+}
+
+}  // namespace pyroscene::render

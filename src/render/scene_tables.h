@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/planck_rows.h"
+#include "render/scene.h"
+#include "render/spectral_kernels.h"
+
+namespace pyroscene::render {
+
+/// Everything of a scene that depends on wavelength only, laid out for the kernels: rows of `stride` floats (the wavelengths,
+/// padded with zeros). Built once per image.
+struct SceneTables {
+    explicit SceneTables(const RenderScene& scene);
+
+    /// One row per material.
+    struct Rows {
+        std::vector<float> values;
+        int stride = 0;
+        [[nodiscard]] const float* operator[](int material) const noexcept {
+            return values.data() + static_cast<std::ptrdiff_t>(material) * stride;
+        }
+    };
+
+    int lambdas = 0, stride = 0, materials = 0;
+    PlanckRows planck;                   ///< all temperatures of flame and ground
+    std::vector<float> absorption_per_m; ///< of flame
+    bool grey = false;
+    double grey_absorption_per_m = 0.0, least_absorption_per_m = 0.0;
+    double truth_absorption_per_m = 0.0; ///< at the node nearest 4.0 um
+
+    Rows emissivity, reflectance_per_pi;
+    Rows sun, sky, thermal_sky;          ///< radiance reflected from the whole, open sky; sun: per cosine of incidence
+    bool has_sun = false, has_sky = false, has_thermal_sky = false;
+    std::vector<double> broadband_emissivity;  ///< per material: plain mean over the wavelengths, for the true radiant exitance
+    double front_K = 0.0, ambient_K = 0.0;
+};
+
+/// Checks that the parts of a scene fit together; throws an input error that names the part.
+void check_scene(const RenderScene& scene);
+
+}  // namespace pyroscene::render

@@ -1,0 +1,2 @@
+#define PYROSCENE_KERNELS portable_spectral_kernels
+#include "render/spectral_kernels.inc"
