@@ -1,0 +1,68 @@
+#include "gis/netcdf_input.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include "base/error.h"
+#include "gis/gdal_support.h"
+
+namespace pyroscene::gis {
+namespace {
+
+std::string names_of(const GDALGroup& root) {
+    std::string list;
+    for (const auto& name : root.GetMDArrayNames()) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+void read_values(const GDALMDArray& array, NamedArray& out, const std::string& subject, const GdalErrors& errors) {
+    const std::vector<GUInt64> start(out.shape.size(), 0);
+    const std::vector<std::size_t> count(out.shape.begin(), out.shape.end());
+    const auto type = GDALExtendedDataType::Create(GDT_Float64);
+    if (!array.Read(start.data(), count.data(), nullptr, nullptr, type, out.values.data()))
+        throw input_error(subject, "cannot be read: " + errors.message());
+    bool has_nodata = false, has_scale = false, has_offset = false;
+    const double nodata = array.GetNoDataValueAsDouble(&has_nodata);
+    const double scale = array.GetScale(&has_scale), offset = array.GetOffset(&has_offset);
+    for (double& value : out.values) {
+        if (has_nodata && value == nodata) value = std::numeric_limits<double>::quiet_NaN();
+        if (has_scale) value *= scale;
+        if (has_offset) value += offset;
+    }
+}
+
+}  // namespace
+
+NamedArray read_netcdf_variable(const std::filesystem::path& path, const std::string& variable) {
+    initialise_gdal();
+    const GdalErrors errors;
+    const std::string subject = fmt::format("{}, variable '{}'", path.string(), variable);
+    const DatasetPtr dataset(
+        GDALDataset::Open(path.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+    if (!dataset) {
+        std::error_code ignored;
+        if (!std::filesystem::exists(path, ignored)) throw input_error(path.string(), "no such file");
+        throw input_error(path.string(), "is not a netCDF file that can be read: " + errors.message());
+    }
+    const auto root = dataset->GetRootGroup();
+    const auto array = root ? root->OpenMDArray(variable) : nullptr;
+    if (!array)
+        throw input_error(subject, "not in the file; it has " + (root ? names_of(*root) : std::string("no variables")));
+    if (array->GetDataType().GetClass() != GEDTC_NUMERIC) throw input_error(subject, "is text; expected numbers");
+    NamedArray out;
+    std::size_t size = 1;
+    for (const auto& dimension : array->GetDimensions()) {
+        out.dimensions.push_back(dimension->GetName());
+        out.shape.push_back(static_cast<std::size_t>(dimension->GetSize()));
+        size *= out.shape.back();
+    }
+    out.unit = array->GetUnit();
+    out.values.resize(size);
+    if (size > 0) read_values(*array, out, subject, errors);
+    return out;
+}
+
+}  // namespace pyroscene::gis

@@ -25,17 +25,23 @@ struct GroundControlPoint {
     double lon_deg = 0.0, lat_deg = 0.0, h_m = 0.0;
 };
 
+/// Deflate is read by every program; Zstd is several times faster on large image cubes, but some commercial readers lack it.
+enum class Compression { Deflate, Zstd };
+
 /// Description of an output raster. Float32 with NaN nodata, or Byte with nodata 255 when `classes` is set.
 struct OutputRaster {
     int cols = 0, rows = 0;
     std::vector<OutputBand> bands;
-    std::optional<MapGrid> grid;                        ///< map geometry: CRS and transform
-    std::optional<std::filesystem::path> geolocation;   ///< sensor geometry: file with longitude in band 1, latitude in band 2
-    std::vector<GroundControlPoint> control_points;     ///< sensor geometry: fall-back for programs without geolocation arrays
-    std::map<std::string, std::string> metadata;        ///< default domain; synthetic=true is always added
-    std::string acquisition_time;                       ///< ISO 8601 UTC; also TIFFTAG_DATETIME. Empty = none
-    bool classes = false;                               ///< Byte, class names from `class_names`
+    std::optional<MapGrid> grid;  ///< map geometry: CRS and transform
+    std::optional<std::filesystem::path>
+        geolocation;                                 ///< sensor geometry: file with longitude in band 1, latitude in band 2
+    std::vector<GroundControlPoint> control_points;  ///< sensor geometry: fall-back for programs without geolocation arrays
+    std::map<std::string, std::string> metadata;     ///< default domain; synthetic=true is always added
+    std::string acquisition_time;                    ///< ISO 8601 UTC; also TIFFTAG_DATETIME. Empty = none
+    bool classes = false;                            ///< Byte, class names from `class_names`
     std::vector<std::string> class_names;
+    Compression compression = Compression::Deflate;
+    int threads = 0;  ///< that compress; 0 = all cores. The file is the same for any number
 };
 
 /// Tiled, compressed GeoTIFF. `pixels` is [band][row][col]. Written under a temporary name and renamed; statistics included.
