@@ -2,6 +2,252 @@
 
 namespace pyroscene::scenario {
 
-std::string json_schema() { return "{}"; }
+namespace {
+
+/// The keys, types and bounds that the readers check; tests hold both together, and with docs/scenario.md.
+constexpr const char* kSchema = R"json({
+  "$schema": "https://json-schema.org/draft/2020-12/schema",
+  "title": "Pyroscene scenario",
+  "type": "object",
+  "additionalProperties": false,
+  "required": ["pyroscene", "inputs", "start", "acquisitions"],
+  "properties": {
+    "pyroscene": {"const": 1, "description": "version of this format"},
+    "name": {"$ref": "#/$defs/name", "description": "plain name, used in outputs; default: the file's name"},
+    "title": {"type": "string", "description": "free text"},
+    "map": {
+      "description": "map grid of the scene; default: the terrain's grid, or its UTM/UPS zone when it is geographic",
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "crs": {"type": "string", "description": "projected CRS, anything PROJ understands", "examples": ["EPSG:32611"]},
+        "cell_m": {"type": "number", "minimum": 0.1, "maximum": 10000}
+      }
+    },
+    "geoid_undulation_m": {"type": "number", "minimum": -120, "maximum": 120, "default": 0,
+      "description": "added to terrain heights to make them ellipsoidal"},
+    "inputs": {
+      "type": "object",
+      "additionalProperties": false,
+      "required": ["terrain", "heat_flux"],
+      "properties": {
+        "terrain": {"$ref": "#/$defs/static", "description": "elevation, m"},
+        "heat_flux": {"$ref": "#/$defs/series", "description": "sensible heat flux of the surface fire, W m-2"},
+        "fuel_load": {"$ref": "#/$defs/series", "description": "fuel load, kg m-2"},
+        "wind": {
+          "description": "rasters of u and v (m s-1) or one vector for the whole map; absent: calm",
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "file": {"type": "string"},
+            "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+            "bands": {
+              "description": "u, v of each frame; [u, v] = as stored: 1, 2 (3, 4, ...)",
+              "oneOf": [{"const": ["u", "v"]},
+                        {"type": "array", "minItems": 2, "items": {"type": "integer", "minimum": 1, "maximum": 65535}}]
+            },
+            "times_s": {"$ref": "#/$defs/times_s"},
+            "speed": {"$ref": "#/$defs/wind_speed"},
+            "speed_m_s": {"$ref": "#/$defs/wind_speed"},
+            "from_deg": {"type": "number", "minimum": -360, "maximum": 360,
+              "description": "where the wind comes from, clockwise from true north"}
+          }
+        },
+        "arrival": {"$ref": "#/$defs/static", "description": "time of arrival of the fire, s since start"},
+        "cover": {
+          "description": "class of each cell and the table that gives each class a surface spectrum",
+          "type": "object",
+          "additionalProperties": false,
+          "required": ["file", "table"],
+          "properties": {
+            "file": {"type": "string"},
+            "band": {"$ref": "#/$defs/band"},
+            "table": {"type": "string", "description": "fbfm13, fbfm40 or a CSV file", "examples": ["fbfm13", "fbfm40"]}
+          }
+        }
+      }
+    },
+    "start": {"type": "string", "description": "ignition, UTC", "examples": ["2017-07-15T22:00:00Z"],
+      "pattern": "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}(:[0-9]{2}([.][0-9]+)?)?Z$"},
+    "physics": {"enum": ["default", "thesis"], "default": "default"},
+    "fire": {
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "front_threshold_W_m2": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e8, "default": 1000},
+        "front_temperature_K": {"$ref": "#/$defs/temperature_K", "default": 1073.15},
+        "ambient_temperature_K": {"$ref": "#/$defs/temperature_K", "default": 307.15},
+        "flaming_heat_flux_W_m2": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e8, "default": 5e5},
+        "one_sigma_rule": {"type": "boolean", "default": true},
+        "jitter_m": {"type": "number", "minimum": 0, "maximum": 1000, "default": 0},
+        "flame_height": {
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "method": {"enum": ["heat_flux"], "default": "heat_flux"},
+            "alpha": {"type": "number", "exclusiveMinimum": 0, "maximum": 100, "default": 1},
+            "volumetric_heat_release_W_m3": {"type": "number", "minimum": 1e4, "maximum": 1e8, "default": 2e6}
+          }
+        },
+        "tilt": {
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "method": {"enum": ["buoyant_velocity"], "default": "buoyant_velocity"},
+            "maximum_deg": {"type": "number", "minimum": 0, "maximum": 89, "default": 85}
+          }
+        },
+        "air": {
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "density_kg_m3": {"type": "number", "minimum": 0.1, "maximum": 2, "default": 1.18},
+            "heat_capacity_J_kg_K": {"type": "number", "minimum": 500, "maximum": 2000, "default": 1005},
+            "temperature_K": {"type": "number", "minimum": 200, "maximum": 400, "default": 300}
+          }
+        }
+      }
+    },
+    "flame": {
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "enabled": {"type": "boolean", "default": true},
+        "temperature_K": {"$ref": "#/$defs/temperature_K", "default": 1100},
+        "soot_volume_fraction": {"type": "number", "minimum": 0, "maximum": 1e-4, "default": 2e-7},
+        "absorption_per_m": {"type": "number", "minimum": 0, "maximum": 1e4, "description": "grey, instead of soot"},
+        "voxel_m": {"type": "array", "minItems": 3, "maxItems": 3, "default": [5, 5, 1],
+          "items": {"type": "number", "minimum": 0.05, "maximum": 200}},
+        "ember_gap_m": {"type": "number", "minimum": 0, "maximum": 100, "default": 0.5}
+      }
+    },
+    "scar": {
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "model": {"enum": ["double_exponential"], "default": "double_exponential"},
+        "amplitude1_K": {"type": "number", "minimum": 0, "maximum": 3000, "default": 578.97},
+        "time_constant1_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "default": 74.88},
+        "amplitude2_K": {"type": "number", "minimum": 0, "maximum": 3000, "default": 197.50},
+        "time_constant2_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "default": 247.72},
+        "floor_K": {"$ref": "#/$defs/temperature_K", "default": 306.34}
+      }
+    },
+    "surface": {
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "unburned": {"$ref": "#/$defs/surface", "default": "grass_dry"},
+        "burned": {"$ref": "#/$defs/surface", "default": "char_black"},
+        "emissivity": {"type": "number", "exclusiveMinimum": 0, "maximum": 1, "description": "grey, for all ground"}
+      }
+    },
+    "atmosphere": {
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "model": {"default": "midlatitude_summer", "enum": ["midlatitude_summer", "midlatitude_winter",
+          "subarctic_summer", "tropical", "us_standard_1976", "none"]},
+        "visibility_km": {"type": "number", "minimum": 1, "maximum": 300, "default": 23},
+        "ground_elevation_m": {"type": "number", "minimum": -500, "maximum": 6000,
+          "description": "default: mean terrain height"},
+        "file": {"type": "string", "description": "look-up table in netCDF, instead of model and visibility"}
+      }
+    },
+    "render": {
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "samples_per_axis": {"type": "integer", "minimum": 1, "maximum": 16, "default": 3},
+        "light_directions": {"type": "integer", "minimum": 4, "maximum": 65536, "default": 64},
+        "light_reach_m": {"type": "number", "minimum": 0, "maximum": 10000, "default": 500},
+        "flame_light": {"type": "boolean", "default": true},
+        "sun": {"type": "boolean", "default": true}
+      }
+    },
+    "acquisitions": {
+      "description": "one image each",
+      "type": "array",
+      "minItems": 1,
+      "items": {
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["id", "sensor", "time_s", "platform"],
+        "properties": {
+          "id": {"$ref": "#/$defs/name", "description": "folder of its outputs; unique"},
+          "sensor": {"type": "string", "description": "id of a shipped sensor or path of a sensor file", "examples": ["wasp"]},
+          "time_s": {"type": "number", "minimum": 0, "maximum": 1e8, "description": "since start"},
+          "platform": {
+            "type": "object",
+            "additionalProperties": false,
+            "oneOf": [{"required": ["altitude_agl_m"]}, {"required": ["altitude_m"]}],
+            "properties": {
+              "over": {
+                "default": "centre",
+                "oneOf": [
+                  {"enum": ["centre", "fire"]},
+                  {"type": "object", "additionalProperties": false, "required": ["x_m", "y_m"],
+                   "properties": {"x_m": {"type": "number"}, "y_m": {"type": "number"}}},
+                  {"type": "object", "additionalProperties": false, "required": ["lat_deg", "lon_deg"],
+                   "properties": {"lat_deg": {"type": "number", "minimum": -90, "maximum": 90},
+                                  "lon_deg": {"type": "number", "minimum": -180, "maximum": 180}}}
+                ]
+              },
+              "altitude_agl_m": {"type": "number", "exclusiveMinimum": 0, "maximum": 5e7},
+              "altitude_m": {"type": "number", "minimum": -500, "maximum": 5e7},
+              "heading_deg": {"type": "number", "minimum": -360, "maximum": 360, "default": 0},
+              "pitch_deg": {"type": "number", "minimum": -90, "maximum": 90, "default": 0},
+              "roll_deg": {"type": "number", "minimum": -180, "maximum": 180, "default": 0}
+            }
+          },
+          "groups": {"$ref": "#/$defs/words", "description": "camera groups of the sensor; default: all"},
+          "bands": {"$ref": "#/$defs/words", "description": "bands of the sensor; default: all"}
+        }
+      }
+    },
+    "products": {
+      "type": "array",
+      "minItems": 1,
+      "uniqueItems": true,
+      "items": {"enum": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook"]},
+      "default": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook"]
+    },
+    "seed": {"type": "integer", "minimum": 0, "default": 1}
+  },
+  "$defs": {
+    "name": {"type": "string", "maxLength": 100, "pattern": "^[A-Za-z0-9][A-Za-z0-9._-]*$"},
+    "words": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+    "temperature_K": {"type": "number", "minimum": 200, "maximum": 3500},
+    "wind_speed": {"type": "number", "minimum": 0, "maximum": 100, "description": "m s-1"},
+    "band": {"type": "integer", "minimum": 1, "maximum": 65535, "description": "counted from 1"},
+    "times_s": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},
+      "description": "s since start of each frame, ascending; default: band metadata time_s"},
+    "surface": {"enum": ["grass_green", "grass_dry", "grass_cured_20pct_green", "chaparral", "conifer", "litter_needles",
+      "soil_bare", "soil_dark", "soil_light", "char_black", "ash_gray", "ash_white", "rock_gravel", "asphalt", "water"]},
+    "static": {
+      "type": "object",
+      "additionalProperties": false,
+      "required": ["file"],
+      "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}}
+    },
+    "series": {
+      "type": "object",
+      "additionalProperties": false,
+      "oneOf": [{"required": ["file"]}, {"required": ["files"]}],
+      "properties": {
+        "file": {"type": "string"},
+        "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+        "band": {"$ref": "#/$defs/band"},
+        "bands": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/band"}},
+        "times_s": {"$ref": "#/$defs/times_s"}
+      }
+    }
+  }
+}
+)json";
+
+}  // namespace
+
+std::string json_schema() { return kSchema; }
 
 }  // namespace pyroscene::scenario
