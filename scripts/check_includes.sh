@@ -6,7 +6,7 @@
 set -euo pipefail
 cd -- "${1:-$(dirname -- "${BASH_SOURCE[0]}")/..}"
 
-find src gis sensors \( -name '*.h' -o -name '*.cpp' \) -print | sort | xargs awk '
+find src gis sensors \( -name '*.h' -o -name '*.cpp' -o -name '*.inc' \) -print | sort | xargs awk '
 BEGIN {
     # module -> folders whose headers it may include, besides its own
     allow["base"]       = ""
@@ -38,7 +38,7 @@ function complain(text) {
 FNR == 1 {
     parts = split(FILENAME, path, "/")
     module = (path[1] == "src") ? path[2] : path[1]
-    is_header = (FILENAME ~ /\.h$/)
+    is_header = (FILENAME ~ /\.(h|inc)$/)
     if (!(module in allow)) complain("folder \"" module "\" is not in the table of modules (scripts/check_includes.sh)")
 }
 /^[ \t]*#[ \t]*include[ \t]*"/ {
