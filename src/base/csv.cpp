@@ -34,7 +34,7 @@ double parse_number(std::string_view text, std::string_view subject) {
     const std::string_view s = trim(text);
     if (s == "nan" || s == "NaN") return std::nan("");
     double value = 0.0;
-    const char* begin = s.data() + (!s.empty() && s.front() == '+' ? 1 : 0);
+    const char* begin = s.data() + (s.starts_with('+') && !s.starts_with("+-") ? 1 : 0);
     const auto [end, status] = std::from_chars(begin, s.data() + s.size(), value);
     if (status != std::errc{} || end != s.data() + s.size() || s.empty())
         throw input_error(subject, fmt::format("expected a number, found '{}'", s));
@@ -69,6 +69,7 @@ CsvTable read_csv(const std::filesystem::path& path) {
     table.path = path.string();
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
+        if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of spreadsheet exports
         const auto text = trim(line);
         if (text.empty() || text.front() == '#') continue;
         if (text.find('"') != std::string_view::npos)

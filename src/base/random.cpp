@@ -29,8 +29,9 @@ std::array<std::uint32_t, 4> draw_words(const RandomKey& key, std::uint64_t inde
 }
 
 double to_open_unit(std::uint32_t high, std::uint32_t low) noexcept {
-    const std::uint64_t bits53 = (static_cast<std::uint64_t>(high) << 21) ^ (low >> 11);
-    return (static_cast<double>(bits53) + 0.5) * 0x1.0p-53;
+    // 52 bits, so that adding a half is exact: with 53 the largest draw would round to 1.
+    const std::uint64_t bits52 = (static_cast<std::uint64_t>(high) << 20) | (low >> 12);
+    return (static_cast<double>(bits52) + 0.5) * 0x1.0p-52;
 }
 
 }  // namespace
