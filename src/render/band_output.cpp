@@ -32,14 +32,16 @@ BandOutput::BandOutput(const PreparedScene& prepared, bool with_terms)
     for (auto* buffer : {&path_, &at_sensor_, &through_, &zero_}) buffer->assign(stride, 0.0F);
     view_.resize(prepared.tables.stride);  // padded: `at` fills the wavelengths, the rest stays as it is
     for (auto* term : {&view_.transmittance, &view_.solar_correlation}) std::fill(term->begin(), term->end(), 1.0F);
-    for (auto* term : {&view_.path_thermal, &view_.path_solar, &view_.adjacency}) std::fill(term->begin(), term->end(), 0.0F);
+    for (auto* term : {&view_.path_thermal, &view_.path_solar, &view_.adjacency})
+        std::fill(term->begin(), term->end(), 0.0F);
 }
 
 void BandOutput::compute(const Pixel& pixel, const PixelView& view, float* total, float* terms) {
     const SceneTables& t = prepared_->tables;
     if (!vacuum_) {
         prepared_->scene.atmosphere->at(view.view_zenith_rad, view.relative_azimuth_rad, view_);
-        for (std::size_t i = 0; i < path_.size(); ++i) path_[i] = view_.path_thermal[i] + view_.path_solar[i] + view_.adjacency[i];
+        for (std::size_t i = 0; i < path_.size(); ++i)
+            path_[i] = view_.path_thermal[i] + view_.path_solar[i] + view_.adjacency[i];
     }
     const auto scale = static_cast<float>(1.0 / pixel.truth().coverage);
     const GroundSpectra& ground = pixel.ground();

@@ -25,8 +25,8 @@ private:
     const SpectralKernels* kernels_;
     bool with_terms_, vacuum_;
     int bands_;
-    std::vector<int> begin_;                      ///< [band + 1] first node of a band
-    std::vector<float> weight_;                   ///< [node]
+    std::vector<int> begin_;     ///< [band + 1] first node of a band
+    std::vector<float> weight_;  ///< [node]
     radiometry::ViewAtmosphere::View view_;
     std::vector<float> path_, at_sensor_, through_;
     std::vector<float> zero_;

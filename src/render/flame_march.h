@@ -18,7 +18,12 @@ struct AxisWalk {
     int cell = 0, step = 0;
 
     AxisWalk(double from, double to) noexcept
-        : origin(from), rate(to - from), inverse(rate != 0.0 ? 1.0 / rate : 0.0), step(rate > 0.0 ? 1 : rate < 0.0 ? -1 : 0) {}
+        : origin(from),
+          rate(to - from),
+          inverse(rate != 0.0 ? 1.0 / rate : 0.0),
+          step(rate > 0.0   ? 1
+               : rate < 0.0 ? -1
+                            : 0) {}
 
     /// Cuts [begin, end] to where lower <= position <= upper.
     void clip(double lower, double upper, double& begin, double& end) const noexcept {
@@ -41,8 +46,8 @@ struct AxisWalk {
 
 /// Voxels of one brick column between ray parameters [begin, end]. Returns false when `visit` asked to stop.
 template <class Visit>
-bool march_column(const fire::FlameField& field, const fire::FlameField::BrickColumn& column, int brick_i, int brick_j, AxisWalk x,
-                  AxisWalk y, AxisWalk z, double begin, double end, double ray_m, Visit& visit) {
+bool march_column(const fire::FlameField& field, const fire::FlameField::BrickColumn& column, int brick_i, int brick_j,
+                  AxisWalk x, AxisWalk y, AxisWalk z, double begin, double end, double ray_m, Visit& visit) {
     constexpr int kEdge = fire::FlameField::kBrickEdge;
     const int bottom = column.z_begin * kEdge, top = bottom + column.brick_count * kEdge;
     z.clip(bottom, top, begin, end);
@@ -119,8 +124,9 @@ void FlameMarcher::march(Vec3 start_m, Vec3 end_m, Visit&& visit) const {
     for (double at = begin; at < end;) {
         const double next = std::min(next_x, next_y);
         const double until = std::min(next, end);
-        const auto& column = field_->columns[static_cast<std::size_t>(y.cell) * static_cast<std::size_t>(field_->brick_cols) +
-                                             static_cast<std::size_t>(x.cell)];
+        const auto& column =
+            field_->columns[static_cast<std::size_t>(y.cell) * static_cast<std::size_t>(field_->brick_cols) +
+                            static_cast<std::size_t>(x.cell)];
         if (column.brick_count > 0 && until > at &&
             !detail::march_column(*field_, column, x.cell, y.cell, x, y, z, at, until, ray_m, visit)) {
             return;

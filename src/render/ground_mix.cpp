@@ -55,8 +55,8 @@ void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out)
     const SceneTables& t = *tables_;
     const int rows = t.planck.row_count();
     for (const std::int32_t i : touched_) {
-        kernels_->add_product(t.stride, emission_[static_cast<std::size_t>(i)], t.emissivity[i / rows], t.planck.row(i % rows),
-                              out.part(GroundSpectra::Emission));
+        kernels_->add_product(t.stride, emission_[static_cast<std::size_t>(i)], t.emissivity[i / rows],
+                              t.planck.row(i % rows), out.part(GroundSpectra::Emission));
         emission_[static_cast<std::size_t>(i)] = 0.0F;
         is_touched_[static_cast<std::size_t>(i)] = 0;
     }

@@ -57,7 +57,7 @@ private:
 
     const SceneTables* tables_;
     const SpectralKernels* kernels_;
-    std::vector<float> emission_;         ///< [material][Planck row] weight
+    std::vector<float> emission_;  ///< [material][Planck row] weight
     std::vector<std::uint8_t> is_touched_;
     std::vector<std::int32_t> touched_;   ///< indices into emission_, in order of arrival
     std::vector<Reflection> reflection_;  ///< [material]

@@ -44,9 +44,12 @@ void Pixel::add_ray(const SceneRay& ray, double weight) {
     march(ray.start_m, hit->point_m);
     const double tau_truth = pieces_.empty() ? 1.0 : flame_truth(weight);
     add_ground_truth(view, weight * tau_truth);
-    if (pieces_.empty()) add_ground(mix_, view, weight);
-    else if (prepared_->tables.grey) add_ground(mix_, view, weight * add_grey_flame(weight));
-    else add_flame_spectrally(weight, view);
+    if (pieces_.empty())
+        add_ground(mix_, view, weight);
+    else if (prepared_->tables.grey)
+        add_ground(mix_, view, weight * add_grey_flame(weight));
+    else
+        add_flame_spectrally(weight, view);
 }
 
 bool Pixel::look_at_ground(const TerrainMesh::Hit& hit, GroundView& view) const {
@@ -74,8 +77,10 @@ void Pixel::march(Vec3 start_m, Vec3 hit_m) {
     const double least = prepared_->tables.least_absorption_per_m;
     prepared_->flame.march(start_m, hit_m, [&](float T_K, float fill, double length_m) {
         const double fill_length_m = fill * length_m;
-        if (!pieces_.empty() && pieces_.back().temperature_K == T_K) pieces_.back().fill_length_m += fill_length_m;
-        else pieces_.push_back({T_K, fill_length_m});
+        if (!pieces_.empty() && pieces_.back().temperature_K == T_K)
+            pieces_.back().fill_length_m += fill_length_m;
+        else
+            pieces_.push_back({T_K, fill_length_m});
         depth += least * fill_length_m;
         return depth < kOpaqueDepth;
     });
@@ -102,7 +107,8 @@ double Pixel::add_grey_flame(double weight) {
         tau -= emitted;
         const PlanckRows::Lookup found = t.planck.at(piece.temperature_K);
         for (int j = 0; j < found.count; ++j) {
-            flame_weight_[static_cast<std::size_t>(found.row + j)] += weight * emitted * found.weight[static_cast<std::size_t>(j)];
+            flame_weight_[static_cast<std::size_t>(found.row + j)] +=
+                weight * emitted * found.weight[static_cast<std::size_t>(j)];
         }
         const bool first = end_flame_row_ == first_flame_row_;
         first_flame_row_ = first ? found.row : std::min(first_flame_row_, found.row);

@@ -12,7 +12,8 @@ namespace pyroscene::render {
 
 /// A scene and all that was prepared from it for one image; shared by all threads, constant.
 struct PreparedScene {
-    PreparedScene(const RenderScene& s, const GroundIrradiance* light) : scene(s), flame_light(light), tables(s), flame(*s.flame) {}
+    PreparedScene(const RenderScene& s, const GroundIrradiance* light)
+        : scene(s), flame_light(light), tables(s), flame(*s.flame) {}
     const RenderScene& scene;
     const GroundIrradiance* flame_light;  ///< may be null
     SceneTables tables;
@@ -22,10 +23,10 @@ struct PreparedScene {
 /// What the rays of one pixel met, as sums of ray weights; opacities and transmittances of flame are those at 4.0 um.
 struct PixelTruth {
     double coverage = 0.0;
-    Vec3 hit_m;                                              ///< weighted sum
+    Vec3 hit_m;  ///< weighted sum
     double flame = 0.0, front = 0.0, scar = 0.0, background = 0.0;
-    double flame_T4 = 0.0;                                   ///< sum of (tau_i - tau_{i+1}) T^4
-    double ground_T4 = 0.0;                                  ///< sum of tau T^4
+    double flame_T4 = 0.0;   ///< sum of (tau_i - tau_{i+1}) T^4
+    double ground_T4 = 0.0;  ///< sum of tau T^4
     double exitance_W_m2 = 0.0;
 };
 
@@ -68,8 +69,8 @@ private:
     const PreparedScene* prepared_;
     const SpectralKernels* kernels_;
     PixelTruth truth_;
-    std::vector<FlamePiece> pieces_;        ///< of the current ray, neighbours of one temperature merged
-    std::vector<double> flame_weight_;      ///< [Planck row] of grey flame
+    std::vector<FlamePiece> pieces_;    ///< of the current ray, neighbours of one temperature merged
+    std::vector<double> flame_weight_;  ///< [Planck row] of grey flame
     int first_flame_row_ = 0, end_flame_row_ = 0;
     GroundMix mix_, mix_of_ray_;
     GroundSpectra ground_, ground_of_ray_;

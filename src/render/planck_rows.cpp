@@ -10,7 +10,7 @@ namespace pyroscene::render {
 namespace {
 
 constexpr double kColdest_K = 50.0;
-constexpr double kLeastRadiance = 1e-20;   // keeps denormal numbers out of the loops
+constexpr double kLeastRadiance = 1e-20;       // keeps denormal numbers out of the loops
 constexpr double kLargestRelativeStep = 0.03;  // of 1/T: bounds the error where B grows like T, at long wavelengths
 
 }  // namespace

@@ -22,8 +22,8 @@ public:
     /// \param lowest_K, highest_K  range of the temperatures to come; outside it `at` clamps. lowest_K is held to >= 50 K.
     /// \param resolution  c2 d(1/T) / shortest wavelength between nodes; 0.08 keeps the accuracy above, its error grows with
     ///                    the fourth power
-    PlanckRows(std::span<const double> lambda_um, int stride, double lowest_K, double highest_K, std::span<const double> exact_K,
-               double resolution = 0.08);
+    PlanckRows(std::span<const double> lambda_um, int stride, double lowest_K, double highest_K,
+               std::span<const double> exact_K, double resolution = 0.08);
 
     [[nodiscard]] Lookup at(double temperature_K) const noexcept;
     [[nodiscard]] const float* row(int i) const noexcept { return values_.data() + static_cast<std::size_t>(i) * stride_; }
@@ -37,7 +37,7 @@ private:
     int rows_ = 0, nodes_ = 0;
     double first_per_K_ = 0.0, nodes_per_K_ = 0.0;  ///< 1/T of node 0 (the hottest), nodes per unit of 1/T
     double lowest_K_ = 0.0, highest_K_ = 0.0;
-    std::vector<double> exact_K_;                    ///< their rows follow the nodes
+    std::vector<double> exact_K_;  ///< their rows follow the nodes
     std::vector<float> values_;
 };
 

@@ -43,9 +43,9 @@ RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request)
         for (auto& term : image.terms) make_large(term, cube);
     }
     for (auto* plane : {&image.hit_x_m, &image.hit_y_m, &image.hit_z_m}) plane->resize(pixels);
-    for (auto* plane : {&image.coverage, &image.flame_fraction, &image.front_fraction, &image.scar_fraction,
-                        &image.background_fraction, &image.flame_temperature_K, &image.ground_temperature_K,
-                        &image.radiant_exitance_W_m2}) {
+    for (auto* plane :
+         {&image.coverage, &image.flame_fraction, &image.front_fraction, &image.scar_fraction, &image.background_fraction,
+          &image.flame_temperature_K, &image.ground_temperature_K, &image.radiant_exitance_W_m2}) {
         plane->resize(pixels);
     }
     return image;

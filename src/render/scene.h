@@ -24,42 +24,49 @@ struct SceneRay {
 
 /// Terms of the at-sensor radiance (eq 4.44 with the thermal path and the thermal sky, docs/physics.md). They sum to the total.
 enum class Term {
-    GroundEmission, ReflectedSun, ReflectedSky, ReflectedThermalSky, ReflectedFlame, FlameEmission,
-    PathSolar, PathThermal, Adjacency
+    GroundEmission,
+    ReflectedSun,
+    ReflectedSky,
+    ReflectedThermalSky,
+    ReflectedFlame,
+    FlameEmission,
+    PathSolar,
+    PathThermal,
+    Adjacency
 };
 inline constexpr int kTermCount = 9;
 inline constexpr std::array<const char*, kTermCount> kTermNames{
     "ground_emission", "reflected_sun", "reflected_sky", "reflected_thermal_sky", "reflected_flame", "flame_emission",
-    "path_solar", "path_thermal", "adjacency"};
+    "path_solar",      "path_thermal",  "adjacency"};
 
 /// Spectral properties on the transport grid.
 struct SceneOptics {
     int lambda_count = 0;
     std::vector<double> lambda_um;
-    std::vector<float> flame_absorption_per_m;            ///< [lambda] of flame that fills its voxel
-    bool grey = false;                                    ///< absorption equal at all wavelengths: one exp per step
+    std::vector<float> flame_absorption_per_m;  ///< [lambda] of flame that fills its voxel
+    bool grey = false;                          ///< absorption equal at all wavelengths: one exp per step
     int material_count = 0;
-    std::vector<float> reflectance;                       ///< [material][lambda]; emissivity = 1 - reflectance
-    int burnt_material = 0;                               ///< material of burnt and burning ground
+    std::vector<float> reflectance;  ///< [material][lambda]; emissivity = 1 - reflectance
+    int burnt_material = 0;          ///< material of burnt and burning ground
 };
 
 /// All that a camera can see. Pointers are not owned and must outlive the render.
 struct RenderScene {
     const TerrainMesh* terrain = nullptr;
     const fire::SurfaceField* surface = nullptr;
-    const Raster<std::uint8_t>* cover = nullptr;          ///< material of unburnt ground per map cell
+    const Raster<std::uint8_t>* cover = nullptr;  ///< material of unburnt ground per map cell
     const fire::FlameField* flame = nullptr;
     const SceneOptics* optics = nullptr;
     const radiometry::SpectralGrid* spectral = nullptr;
     const radiometry::ViewAtmosphere* atmosphere = nullptr;
-    Vec3 scene_origin_m;                                  ///< map coordinates of the scene frame's origin (z = 0)
-    Vec3 to_sun;                                          ///< unit vector, scene frame; z <= 0 = night
+    Vec3 scene_origin_m;  ///< map coordinates of the scene frame's origin (z = 0)
+    Vec3 to_sun;          ///< unit vector, scene frame; z <= 0 = night
 };
 
 /// Settings of the light that flames throw on the ground.
 struct GroundLightSettings {
-    int directions = 64;             ///< vertical planes around a receiver; each is cut into strata of elevation
-    double reach_m = 500.0;          ///< a flame farther away than this does not count
+    int directions = 64;     ///< vertical planes around a receiver; each is cut into strata of elevation
+    double reach_m = 500.0;  ///< a flame farther away than this does not count
 };
 
 /// Light on the ground near flames, independent of any camera, on the map grid of the terrain. Irradiances are means over
@@ -67,7 +74,7 @@ struct GroundLightSettings {
 /// receive nothing from flames and see the whole sky.
 struct GroundIrradiance {
     MapGrid grid;
-    std::vector<std::int32_t> row_of_cell;          ///< [map cell] row into the arrays below, -1 = none
+    std::vector<std::int32_t> row_of_cell;  ///< [map cell] row into the arrays below, -1 = none
     int lambda_count = 0;
     int stride = 0;                                 ///< floats per row, lambda_count padded with zeros to whole vectors
     std::vector<float> irradiance_W_m2_um;          ///< [row][lambda] by flames
@@ -77,7 +84,8 @@ struct GroundIrradiance {
 
 /// One bounce: hemisphere quadrature at each terrain cell near flames, through the flame field, occluded by terrain.
 /// Deterministic for any thread count. Method and accuracy: docs/physics-render.md.
-GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSettings& settings, const Monitor& monitor = {});
+GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSettings& settings,
+                                   const Monitor& monitor = {});
 
 /// View geometry of one pixel at the ground, for the atmosphere.
 struct PixelView {
@@ -94,20 +102,20 @@ struct ImageRequest {
     std::function<void(int line, int begin, int end, std::span<SceneRay> out)> rays;
     /// View angles of a pixel whose mean ground hit (scene frame) is given.
     std::function<PixelView(int line, int sample, Vec3 hit_m)> view;
-    bool terms = true;               ///< keep every radiance term apart
+    bool terms = true;  ///< keep every radiance term apart
 };
 
 /// What one image holds before the detector. Planes are [line][sample], cubes [band][line][sample]; NaN where nothing is hit.
 struct RadianceImage {
     int samples = 0, lines = 0, bands = 0;
-    std::vector<float> radiance_W_m2_sr_um;                    ///< [band][line][sample], noise-free
-    std::array<std::vector<float>, kTermCount> terms;          ///< each as radiance, empty when not asked for
-    std::vector<double> hit_x_m, hit_y_m, hit_z_m;             ///< PSF-weighted mean ground point, scene frame
-    std::vector<float> coverage;                               ///< weight of sub-rays that met the scene, 0..1
+    std::vector<float> radiance_W_m2_sr_um;            ///< [band][line][sample], noise-free
+    std::array<std::vector<float>, kTermCount> terms;  ///< each as radiance, empty when not asked for
+    std::vector<double> hit_x_m, hit_y_m, hit_z_m;     ///< PSF-weighted mean ground point, scene frame
+    std::vector<float> coverage;                       ///< weight of sub-rays that met the scene, 0..1
     std::vector<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum = 1
-    std::vector<float> flame_temperature_K;                    ///< emission-weighted, NaN without flame
-    std::vector<float> ground_temperature_K;                   ///< (mean T^4)^(1/4) of the ground seen
-    std::vector<float> radiant_exitance_W_m2;                  ///< true FRP per ground area: flame + front + (scar - ambient)
+    std::vector<float> flame_temperature_K;    ///< emission-weighted, NaN without flame
+    std::vector<float> ground_temperature_K;   ///< (mean T^4)^(1/4) of the ground seen
+    std::vector<float> radiant_exitance_W_m2;  ///< true FRP per ground area: flame + front + (scar - ambient)
 };
 
 /// The image. Bit-identical for any thread count. Throws Cancelled when the monitor asks.

@@ -74,10 +74,12 @@ bool any_positive(const std::vector<float>& values) {
 }  // namespace
 
 void check_scene(const RenderScene& scene) {
-    require(scene.terrain && scene.surface && scene.cover && scene.flame && scene.optics && scene.spectral && scene.atmosphere,
-            "scene", "terrain, surface, cover, flame, optics, spectral grid and atmosphere must all be given");
+    require(
+        scene.terrain && scene.surface && scene.cover && scene.flame && scene.optics && scene.spectral && scene.atmosphere,
+        "scene", "terrain, surface, cover, flame, optics, spectral grid and atmosphere must all be given");
     const SceneOptics& optics = *scene.optics;
-    const auto lambdas = static_cast<std::size_t>(optics.lambda_count), materials = static_cast<std::size_t>(optics.material_count);
+    const auto lambdas = static_cast<std::size_t>(optics.lambda_count),
+               materials = static_cast<std::size_t>(optics.material_count);
     require(optics.lambda_count > 0, "scene", "the optics hold no wavelength, expected at least one");
     check_length(static_cast<std::size_t>(scene.spectral->size()), lambdas, "the spectral grid");
     check_length(optics.lambda_um.size(), lambdas, "lambda_um of the optics");

@@ -24,16 +24,17 @@ struct SceneTables {
     };
 
     int lambdas = 0, stride = 0, materials = 0;
-    PlanckRows planck;                   ///< all temperatures of flame and ground
-    std::vector<float> absorption_per_m; ///< of flame
+    PlanckRows planck;                    ///< all temperatures of flame and ground
+    std::vector<float> absorption_per_m;  ///< of flame
     bool grey = false;
     double grey_absorption_per_m = 0.0, least_absorption_per_m = 0.0;
-    double truth_absorption_per_m = 0.0; ///< at the node nearest 4.0 um
+    double truth_absorption_per_m = 0.0;  ///< at the node nearest 4.0 um
 
     Rows emissivity, reflectance_per_pi;
-    Rows sun, sky, thermal_sky;          ///< radiance reflected from the whole, open sky; sun: per cosine of incidence
+    Rows sun, sky, thermal_sky;  ///< radiance reflected from the whole, open sky; sun: per cosine of incidence
     bool has_sun = false, has_sky = false, has_thermal_sky = false;
-    std::vector<double> broadband_emissivity;  ///< per material: plain mean over the wavelengths, for the true radiant exitance
+    std::vector<double>
+        broadband_emissivity;  ///< per material: plain mean over the wavelengths, for the true radiant exitance
     double front_K = 0.0, ambient_K = 0.0;
 };
 

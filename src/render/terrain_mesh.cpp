@@ -55,8 +55,10 @@ std::vector<float> without_holes(const Raster<float>& height_m, bool& has_holes)
                         if (std::isfinite(near)) sum += near, ++count;
                     }
                 }
-                if (count > 0) h = static_cast<float>(sum / count);
-                else open = true;
+                if (count > 0)
+                    h = static_cast<float>(sum / count);
+                else
+                    open = true;
             }
         }
     }
@@ -172,7 +174,8 @@ void TerrainMesh::Impl::add_geometry(const std::vector<float>& points) {
     for (int r = 0; r < height - 1; r += kMaximumGridEdge - 1) {
         for (int c = 0; c < width - 1; c += kMaximumGridEdge - 1) {
             tiles.push_back({static_cast<unsigned>(r) * static_cast<unsigned>(width) + static_cast<unsigned>(c),
-                             static_cast<unsigned>(width), static_cast<unsigned short>(std::min(kMaximumGridEdge, width - c)),
+                             static_cast<unsigned>(width),
+                             static_cast<unsigned short>(std::min(kMaximumGridEdge, width - c)),
                              static_cast<unsigned short>(std::min(kMaximumGridEdge, height - r))});
         }
     }
@@ -189,7 +192,8 @@ void TerrainMesh::Impl::add_geometry(const std::vector<float>& points) {
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
-    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw runtime_error("terrain", "Embree could not build the terrain mesh");
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+        throw runtime_error("terrain", "Embree could not build the terrain mesh");
 }
 
 /// Cuts the ray's piece [near, far] to the scene box (slabs). Float32 then only sees numbers of the size of the scene.
