@@ -108,11 +108,12 @@ TEST(Columns, JitterIsBoundedSeededAndFollowsTheTerrain) {
     p.jitter_m = 2.0;
     const auto moved = columns_of(state, p);
     ASSERT_EQ(moved.size(), still.size());
-    double mean_x = 0.0, mean_y = 0.0, farthest_m = 0.0;
+    double mean_x = 0.0, mean_y = 0.0, mean_xy = 0.0, farthest_m = 0.0;
     for (std::size_t n = 0; n < moved.size(); ++n) {
         const double dx = moved[n].x_m - still[n].x_m, dy = moved[n].y_m - still[n].y_m;
         mean_x += dx / static_cast<double>(moved.size());
         mean_y += dy / static_cast<double>(moved.size());
+        mean_xy += dx * dy / static_cast<double>(moved.size());
         farthest_m = std::max({farthest_m, std::abs(dx), std::abs(dy)});
         const double x_map_m = moved[n].x_m + 1030.0;  // terrain is a plane between the outermost centres
         if (x_map_m > 1010.0 && x_map_m < 1230.0) {
@@ -124,6 +125,7 @@ TEST(Columns, JitterIsBoundedSeededAndFollowsTheTerrain) {
     // Mean of 192 uniform deviates of half width 2: sd 2 / sqrt(3 * 192) = 0.083.
     EXPECT_LT(std::abs(mean_x), 0.33);
     EXPECT_LT(std::abs(mean_y), 0.33);
+    EXPECT_LT(std::abs(mean_xy), 0.4);  // independent axes: variance 4/3, so sd 1.33 / sqrt(192) = 0.096
     EXPECT_EQ(columns_of(state, p)[7].x_m, moved[7].x_m);
     p.seed = 99;
     EXPECT_NE(columns_of(state, p)[7].x_m, moved[7].x_m);

@@ -73,6 +73,15 @@ TEST(FlameField, MergesInAnyOrderToTheSameBits) {
     }
 }
 
+// 1 + 2^-24 lies halfway between two floats; four times 2^-54 tip it over only when they are added before the large ones.
+TEST(FlameField, RoundsTheSameInAnyOrder) {
+    std::vector<FlameVoxel> voxels{{0, 0, 0, 1.0F, 900.0F}, {0, 0, 0, 0x1p-24F, 900.0F}};
+    voxels.insert(voxels.end(), 4, {0, 0, 0, 0x1p-54F, 900.0F});
+    const float fill = voxel_at(make_flame_field(grid(), voxels), 0, 0, 0).fill;
+    std::reverse(voxels.begin(), voxels.end());
+    EXPECT_EQ(voxel_at(make_flame_field(grid(), voxels), 0, 0, 0).fill, fill);
+}
+
 TEST(FlameField, IsEmptyWithoutFlame) {
     const std::vector<FlameVoxel> nothing{{3, 3, 3, 0.0F, 900.0F}};
     const auto field = make_flame_field(grid(), nothing);

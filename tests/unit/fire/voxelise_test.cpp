@@ -154,6 +154,20 @@ TEST(Voxelise, ShearsLayerByLayer) {
     }
 }
 
+// 16 m of shear within one thick layer: 4 m2 of cross-section spread evenly over the 15 voxels that the whole column crosses.
+TEST(Voxelise, ShearsInsideThickVoxels) {
+    FlameColumn c = upright();
+    c.width_m = 1.0;
+    c.y_m = -7.5;
+    c.z_m = 0.0;
+    c.top_m = 4.0;
+    c.tilt_rad = std::atan(4.0);
+    c.azimuth_rad = 0.5 * kPi;
+    const auto field = voxelise({&c, 1}, voxels(1.0, 1.0, 4.0));
+    EXPECT_NEAR(field.grid.corner_m.x, 12.0, 1e-12);
+    for (int i = 1; i < 16; ++i) EXPECT_NEAR(voxel_at(field, i, 0, 0).fill, 1.0 / 16.0, 2e-4) << i;
+}
+
 TEST(Voxelise, LatticesOfDifferentFramesCoincide) {
     for (const double x_m : {-33.3, 0.1, 471.7}) {
         FlameColumn c = upright();
