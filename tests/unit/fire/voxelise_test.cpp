@@ -154,7 +154,8 @@ TEST(Voxelise, ShearsLayerByLayer) {
     }
 }
 
-// 16 m of shear within one thick layer: 4 m2 of cross-section spread evenly over the 15 voxels that the whole column crosses.
+// 16 m of shear within one thick layer: the 15 voxels that the whole column crosses share it evenly, but for a ripple below 2 %
+// that slabs of half a voxel leave.
 TEST(Voxelise, ShearsInsideThickVoxels) {
     FlameColumn c = upright();
     c.width_m = 1.0;
@@ -165,7 +166,7 @@ TEST(Voxelise, ShearsInsideThickVoxels) {
     c.azimuth_rad = 0.5 * kPi;
     const auto field = voxelise({&c, 1}, voxels(1.0, 1.0, 4.0));
     EXPECT_NEAR(field.grid.corner_m.x, 12.0, 1e-12);
-    for (int i = 1; i < 16; ++i) EXPECT_NEAR(voxel_at(field, i, 0, 0).fill, 1.0 / 16.0, 2e-4) << i;
+    for (int i = 1; i < 16; ++i) EXPECT_NEAR(voxel_at(field, i, 0, 0).fill, 1.0 / 16.0, 1e-3) << i;
 }
 
 TEST(Voxelise, LatticesOfDifferentFramesCoincide) {
