@@ -131,8 +131,7 @@ FrameChords::FrameChords(const Sensor& sensor, const CameraGroup& group, const P
     const ExactChords exact(sensor, group, pose, map, scene_origin_m, bottom_m, top_m);
     first_ = -kMargin_px;
     const double width = group.samples + 2.0 * kMargin_px, height = group.lines + 2.0 * kMargin_px;
-    // The cubic's error falls with the fourth power of the step, so that very oblique frames get a finer lattice.
-    for (double step = kFirstStep_px; step >= kFinestStep_px; step /= 2.0) {
+    for (double step = kFirstStep_px;;) {
         cols_ = std::max(4, static_cast<int>(std::ceil(width / step)) + 1);
         rows_ = std::max(4, static_cast<int>(std::ceil(height / step)) + 1);
         col_step_ = width / (cols_ - 1);
@@ -148,7 +147,10 @@ FrameChords::FrameChords(const Sensor& sensor, const CameraGroup& group, const P
                 const double sample = first_ + (col + 0.5) * col_step_, line = first_ + (row + 0.5) * row_step_;
                 error_m = std::max(error_m, ground_error_m(exact.at(sample, line), interpolate(sample, line)));
             }
-        if (error_m < kTolerance_m || 4.0 * static_cast<double>(nodes_.size()) > kMaximumNodes) return;
+        // The error falls with the fourth power of the step, so that very oblique frames get a finer lattice at once.
+        const double finest = std::max(kFinestStep_px, std::sqrt(width * height / kMaximumNodes));
+        if (error_m < kTolerance_m || step <= finest) return;
+        step = std::max(finest, 0.9 * step * std::min(1.0, std::pow(kTolerance_m / error_m, 0.25)));
     }
 }
 

@@ -33,10 +33,10 @@ struct Psf {
 /// Radiance noise of a band.
 struct Noise {
     enum class Kind { None, NoiseEquivalentTemperature, SignalToNoise, SignalToNoiseAtAlbedo } kind = Kind::None;
-    double value = 0.0;                 ///< K, or ratio
-    double at_temperature_K = 300.0;    ///< of an NEdT
-    std::optional<double> at_radiance;  ///< W m-2 sr-1 um-1 of an SNR; absent: ratio to the signal itself
-    std::optional<double> at_albedo;
+    double value = 0.0;                   ///< K, or ratio
+    double at_temperature_K = 300.0;      ///< of an NEdT
+    std::optional<double> at_radiance{};  ///< W m-2 sr-1 um-1 of an SNR; absent: ratio to the signal itself
+    std::optional<double> at_albedo{};
 };
 
 struct Band {

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,12 +24,15 @@ using config::Range;
 /// Nominal band between its edges: two points, zero outside (Spectrum::at with clamp = false).
 Spectrum boxcar(double lower_um, double upper_um) { return {Quantity::Response, {lower_um, upper_um}, {1.0, 1.0}}; }
 
-/// exp(-4 ln2 ((l - centre) / fwhm)^2) out to 1.5 FWHM (0.2 % of the peak), as the channel tables prescribe.
+/// Gaussian responses end where they are 0.2 % of the peak, as the channel tables prescribe.
+constexpr double kGaussianReach_fwhm = 1.5;
+
+/// exp(-4 ln2 ((l - centre) / fwhm)^2)
 Spectrum gaussian(double centre_um, double fwhm_um) {
     constexpr int kHalfPoints = 30;
     Spectrum s{Quantity::Response, {}, {}};
     for (int i = -kHalfPoints; i <= kHalfPoints; ++i) {
-        const double offset_fwhm = 1.5 * i / kHalfPoints;
+        const double offset_fwhm = kGaussianReach_fwhm * i / kHalfPoints;
         s.lambda_um.push_back(centre_um + offset_fwhm * fwhm_um);
         s.value.push_back(std::exp(-4.0 * std::log(2.0) * offset_fwhm * offset_fwhm));
     }
@@ -77,18 +82,25 @@ Spectrum measured_response(const CsvTable& table, const std::string& band) {
     return s;
 }
 
-void read_response(const Node& node, const std::vector<double>& edges_um, Tables& tables, Band& band) {
-    const std::string srf = node.choice("srf", "nominal", {"nominal", "measured"});
-    const std::string shape = node.choice("srf_shape", "boxcar", {"boxcar", "gaussian"});
-    const Node file = srf == "measured" ? node.required_child("srf_file") : node.child("srf_file");
-    const std::string column = node.text("srf_band", band.id);
-    band.measured_response = srf == "measured";
-    if (!band.measured_response) {
-        band.response = shape == "boxcar" ? boxcar(edges_um[0], edges_um[1]) : gaussian(band.centre_um, band.fwhm_um);
-        band.response_source = fmt::format("{} {:g} - {:g} um", shape, edges_um[0], edges_um[1]);
-        return;
+void read_nominal_response(const Node& node, const std::array<double, 2>& edges_um, const std::string& shape, Band& band) {
+    band.response_source = fmt::format("{} {:g} - {:g} um", shape, edges_um[0], edges_um[1]);
+    if (shape == "boxcar") {
+        band.response = boxcar(edges_um[0], edges_um[1]);
+    } else if (band.centre_um > kGaussianReach_fwhm * band.fwhm_um) {
+        band.response = gaussian(band.centre_um, band.fwhm_um);
+    } else {
+        node.report(fmt::format("a gaussian of width {:g} um around {:g} um reaches below 0", band.fwhm_um, band.centre_um));
     }
-    if (!file.present()) return;
+}
+
+/// Fills the response; leaves it empty, with a problem reported, when it cannot be had.
+void read_response(const Node& node, const std::optional<std::array<double, 2>>& edges_um, Tables& tables, Band& band) {
+    band.measured_response = node.choice("srf", "nominal", {"nominal", "measured"}) == "measured";
+    const std::string shape = node.choice("srf_shape", "boxcar", {"boxcar", "gaussian"});
+    const Node file = band.measured_response ? node.required_child("srf_file") : node.child("srf_file");
+    const std::string column = node.text("srf_band", band.id);
+    if (!band.measured_response && edges_um) read_nominal_response(node, *edges_um, shape, band);
+    if (!band.measured_response || !file.present()) return;
     band.response_source = fmt::format("{}, band {}", file.as_text(""), column);
     try {
         band.response = measured_response(tables.open(file.as_text("")), column);
@@ -140,17 +152,23 @@ std::string read_group_name(const Node& node, const Sensor& sensor) {
     return name;
 }
 
+/// Nominal 50 % points of a band; nothing, and a problem reported, when they cannot be used.
+std::optional<std::array<double, 2>> read_edges(const Node& node) {
+    static_cast<void>(node.required_child("edges_um"));
+    const auto edges_um = node.numbers("edges_um", 2);
+    if (edges_um.empty()) return std::nullopt;
+    if (edges_um[0] > 0.0 && edges_um[0] < edges_um[1]) return std::array{edges_um[0], edges_um[1]};
+    node.child("edges_um").report(fmt::format("[{:g}, {:g}] um, expected 0 < lower < upper", edges_um[0], edges_um[1]));
+    return std::nullopt;
+}
+
 Band read_band(const Node& node, std::optional<int> bits, const Sensor& sensor, Tables& tables) {
     Band band;
     band.id = node.required_child("id").as_text("");
     band.group = read_group_name(node, sensor);
     band.centre_um = node.required_child("center_um").as_number(1.0, Range::positive());
-    static_cast<void>(node.required_child("edges_um"));
-    auto edges_um = node.numbers("edges_um", 2);
-    if (!edges_um.empty() && !(edges_um[0] > 0.0 && edges_um[0] < edges_um[1]))
-        node.child("edges_um").report(fmt::format("[{:g}, {:g}] um, expected 0 < lower < upper", edges_um[0], edges_um[1]));
-    if (edges_um.empty()) edges_um = {band.centre_um, band.centre_um};  // reported above
-    band.fwhm_um = edges_um[1] - edges_um[0];
+    const auto edges_um = read_edges(node);
+    if (edges_um) band.fwhm_um = (*edges_um)[1] - (*edges_um)[0];
     read_response(node, edges_um, tables, band);
     band.noise = read_noise(node.child("noise"));
     band.saturation_radiance_W_m2_sr_um = read_saturation(node.child("saturation"), band);
@@ -178,7 +196,7 @@ void read_channel_table(const Node& spectral, std::optional<int> bits, Tables& t
         const std::size_t name = table.column("channel");
         const auto centre_um = table.numbers("center_um"), fwhm_um = table.numbers("fwhm_um");
         for (std::size_t i = 0; i < table.rows.size(); ++i) {
-            if (!(fwhm_um[i] > 0.0) || !(centre_um[i] > 1.5 * fwhm_um[i]))
+            if (!(fwhm_um[i] > 0.0) || !(centre_um[i] > kGaussianReach_fwhm * fwhm_um[i]))
                 throw input_error(
                     fmt::format("{}:{}", table.path, table.row_lines[i]),
                     fmt::format("centre {} um, width {} um: expected a positive channel", centre_um[i], fwhm_um[i]));

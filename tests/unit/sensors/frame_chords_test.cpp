@@ -1,0 +1,117 @@
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/random.h"
+#include "sensors/framing.h"
+
+namespace pyroscene::sensors {
+namespace {
+
+struct View {
+    const char *name, *crs;
+    gis::Geodetic position;
+    double heading_deg, pitch_deg, roll_deg;
+    double bottom_m, top_m;
+};
+void PrintTo(const View& view, std::ostream* out) { *out << view.name; }
+
+Pose pose_of(const View& v) {
+    return {.position = v.position,
+            .heading_rad = v.heading_deg * kDegree_rad,
+            .pitch_rad = v.pitch_deg * kDegree_rad,
+            .roll_rad = v.roll_deg * kDegree_rad};
+}
+
+class AnyView : public testing::TestWithParam<View> {};
+
+TEST_P(AnyView, IsInterpolatedToLessThanAMillimetre) {
+    const View& view = GetParam();
+    const Sensor wasp = load_sensor("wasp");
+    const CameraGroup& ir = wasp.group("ir");
+    const Pose pose = pose_of(view);
+    const gis::MapProjection map(view.crs);
+    const auto under = map.to_map(view.position.lat_deg, view.position.lon_deg);
+    const Vec3 origin{std::round(under[0]), std::round(under[1]), 1000.0};
+    const FrameChords chords(wasp, ir, pose, map, origin, view.bottom_m, view.top_m);
+    double worst_m = 0.0, worst_view = 0.0, worst_deg = 0.0;
+    for (std::uint64_t i = 0; i < 2000; ++i) {  // anywhere in the frame and 4 pixels around it
+        const double sample = -4.0 + 648.0 * uniform01({}, i, 0), line = -4.0 + 520.0 * uniform01({}, i, 1);
+        const Chord chord = chords.at(sample, line);
+        const EcefRay ray = pixel_ray(wasp, ir, pose, sample, line);
+        const auto top = intersect_height(ray, view.top_m), bottom = intersect_height(ray, view.bottom_m);
+        const auto top_xy = map.to_map(top.lat_deg, top.lon_deg), bottom_xy = map.to_map(bottom.lat_deg, bottom.lon_deg);
+        worst_m = std::max(
+            {worst_m, std::abs(chord.top_m.x + origin.x - top_xy[0]), std::abs(chord.top_m.y + origin.y - top_xy[1]),
+             std::abs(chord.bottom_m.x + origin.x - bottom_xy[0]), std::abs(chord.bottom_m.y + origin.y - bottom_xy[1]),
+             std::abs(chord.top_m.z + origin.z - view.top_m), std::abs(chord.bottom_m.z + origin.z - view.bottom_m),
+             std::abs(chord.bottom_range_m - look_angles(bottom, ray.origin_m).range_m),
+             std::abs(chord.top_range_m - look_angles(top, ray.origin_m).range_m)});
+        worst_deg = std::max({worst_deg, std::abs(std::remainder(chord.bottom_lon_deg - bottom.lon_deg, 360.0)),
+                              std::abs(chord.bottom_lat_deg - bottom.lat_deg), std::abs(chord.top_lat_deg - top.lat_deg),
+                              std::abs(std::remainder(chord.top_lon_deg - top.lon_deg, 360.0))});
+        const LookAngles look = look_angles(bottom, ray.origin_m);
+        const Vec3 expected{std::sin(look.zenith_rad) * std::sin(look.azimuth_rad),
+                            std::sin(look.zenith_rad) * std::cos(look.azimuth_rad), std::cos(look.zenith_rad)};
+        worst_view = std::max(worst_view, length(chord.view_enu - expected));
+    }
+    EXPECT_LT(worst_m, 1e-3);
+    EXPECT_LT(worst_deg, 2e-8);  // 2 mm
+    EXPECT_LT(worst_view, 1e-7);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cameras, AnyView,
+    testing::Values(View{"utm_north_tilted", "EPSG:32611", {46.7, -114.2, 6000.0}, 37, 25, -12, 900.0, 2800.0},
+                    View{"utm_south", "EPSG:32755", {-36.5, 147.3, 6000.0}, 200, -15, 20, 200.0, 1800.0},
+                    View{"zone_edge", "EPSG:32611", {44.0, -119.98, 5000.0}, 290, 10, 30, 0.0, 1200.0},
+                    View{"beyond_zone_edge", "EPSG:32611", {44.0, -121.5, 5000.0}, 290, 10, 30, 0.0, 1200.0},
+                    View{"antimeridian", "EPSG:32660", {-16.0, 179.99, 5000.0}, 90, 20, 0, 0.0, 1000.0},
+                    View{"very_oblique", "EPSG:32611", {46.7, -114.2, 6000.0}, 120, 60, 0, 900.0, 2800.0},
+                    View{"nadir_from_orbit", "EPSG:32611", {46.7, -114.2, 500000.0}, 12, 0, 25, 900.0, 2800.0},
+                    View{"lambert", "EPSG:5070", {46.7, -114.2, 6000.0}, 37, 25, -12, 900.0, 2800.0}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+const View kLow{"low", "EPSG:32611", {46.7, -114.2, 2000.0}, 0, 10, 0, 900.0, 2800.0};
+
+TEST(FrameChords, StartAtAPlatformBelowTheUpperShell) {
+    const Sensor wasp = load_sensor("wasp");
+    const gis::MapProjection map(kLow.crs);
+    const auto under = map.to_map(kLow.position.lat_deg, kLow.position.lon_deg);
+    const FrameChords chords(wasp, wasp.group("ir"), pose_of(kLow), map, {under[0], under[1], 0.0}, kLow.bottom_m,
+                             kLow.top_m);
+    const Chord chord = chords.at(100.0, 400.0);
+    EXPECT_NEAR(length(chord.top_m - Vec3{0.0, 0.0, 2000.0}), 0.0, 1e-6);
+    EXPECT_NEAR(chord.top_range_m, 0.0, 1e-9);
+    EXPECT_NEAR(chord.bottom_m.z, 900.0, 1e-9);
+    EXPECT_NEAR(chord.top_lat_deg, 46.7, 1e-11);
+}
+
+std::string message_of(const View& view) {
+    const Sensor wasp = load_sensor("wasp");
+    try {
+        const FrameChords chords(wasp, wasp.group("ir"), pose_of(view), gis::MapProjection(view.crs), {}, view.bottom_m,
+                                 view.top_m);
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Input);
+        return e.what();
+    }
+    return "accepted";
+}
+
+TEST(FrameChords, RefuseACameraThatDoesNotLookAtTheGround) {
+    View view = kLow;
+    view.pitch_deg = 85;
+    EXPECT_NE(message_of(view).find("passes over the horizon"), std::string::npos) << message_of(view);
+    view.pitch_deg = 180;
+    EXPECT_NE(message_of(view).find("passes over the horizon"), std::string::npos) << message_of(view);
+    view = kLow;
+    view.bottom_m = 2100.0;
+    EXPECT_NE(message_of(view).find("not above the lowest ground"), std::string::npos) << message_of(view);
+}
+
+}  // namespace
+}  // namespace pyroscene::sensors
