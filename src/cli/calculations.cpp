@@ -1,5 +1,5 @@
 #include <cmath>
-#include <memory>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -36,42 +36,35 @@ Spectrum response_of(const Arguments& a) {
     return known->second.bands[static_cast<std::size_t>(band)].response;
 }
 
+/// Tables stay loaded between the rows of a CSV file.
 const radiometry::AtmosphereSet& atmosphere_set(const std::string& model, double visibility_km, double elevation_m) {
-    static std::map<std::string, std::unique_ptr<radiometry::AtmosphereSet>> cache;
-    const auto needed = radiometry::needed_files(model, visibility_km, elevation_m);
+    static std::map<std::string, radiometry::AtmosphereSet> cache;
     std::string key;
-    for (const auto& n : needed) key += n.file + ";";
-    auto& slot = cache[key];
-    if (!slot) {
-        slot = std::make_unique<radiometry::AtmosphereSet>();
-        for (const auto& n : needed)
-            slot->tables.push_back(radiometry::make_atmosphere_table([&](const std::string& variable) {
-                return gis::read_netcdf_variable(data_folder() / "atmosphere" / n.file, variable).values;
-            }));
-    }
-    return *slot;
+    for (const auto& needed : radiometry::needed_files(model, visibility_km, elevation_m)) key += needed.file + ";";
+    auto known = cache.find(key);
+    if (known == cache.end())
+        known = cache
+                    .emplace(key, radiometry::make_atmosphere_set(
+                                      model, visibility_km, elevation_m,
+                                      [](const std::string& file, const std::string& variable) {
+                                          return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
+                                      }))
+                    .first;
+    return known->second;
 }
 
 std::vector<double> atmosphere(const Arguments& a) {
-    const double visibility_km = a.number("visibility_km"), elevation_m = a.number("ground_elevation_m");
-    const auto& set = atmosphere_set(a.text("model"), visibility_km, elevation_m);
     radiometry::AtmospherePoint point;
-    point.sensor_altitude_agl_m = a.number("altitude_m");
+    auto& conditions = point.conditions;
+    conditions.sensor_altitude_agl_m = a.number("altitude_m");
+    conditions.ground_elevation_m = a.number("ground_elevation_m");
+    conditions.visibility_km = a.number("visibility_km");
+    conditions.sun_zenith_rad = a.number("sun_zenith_deg") * kDegree_rad;
     point.view_zenith_rad = a.number("view_zenith_deg") * kDegree_rad;
-    point.sun_zenith_rad = a.number("sun_zenith_deg") * kDegree_rad;
     point.relative_azimuth_rad = a.number("relative_azimuth_deg") * kDegree_rad;
-    point.visibility_km = visibility_km;
-    point.ground_elevation_m = elevation_m;
-    const auto terms = radiometry::evaluate(set, point);
-    const double lambda_um = a.number("wavelength_um");
-    const auto at = [&](const std::vector<double>& values) {
-        return Spectrum{Quantity::Dimensionless, terms.wavelength_um, values}.at(lambda_um);
-    };
-    if (lambda_um < terms.wavelength_um.front() || lambda_um > terms.wavelength_um.back())
-        throw input_error("--wavelength_um", fmt::format("{} lies outside the table ({} to {} um)", lambda_um,
-                                                         terms.wavelength_um.front(), terms.wavelength_um.back()));
-    return {at(terms.transmittance), at(terms.path_thermal),        at(terms.path_solar),     at(terms.direct_normal_irradiance),
-            at(terms.diffuse_irradiance), at(terms.thermal_irradiance), at(terms.spherical_albedo)};
+    const auto& set = atmosphere_set(a.text("model"), conditions.visibility_km, conditions.ground_elevation_m);
+    const auto t = radiometry::evaluate_at(set, point, a.number("wavelength_um"));
+    return {t.transmittance[0], t.path_thermal[0], t.path_solar[0], t.direct_normal[0], t.diffuse[0], t.thermal_sky[0], t.spherical_albedo[0]};
 }
 
 std::vector<double> flame_height(const Arguments& a) {

@@ -44,18 +44,13 @@ std::array<double, 2> place(const Acquisition& acquisition, const SceneInputs& i
 
 radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, double ground_elevation_m) {
     const auto& source = scenario.atmosphere;
-    const auto read_table = [](const std::filesystem::path& file) {
-        return radiometry::make_atmosphere_table(
-            [&](const std::string& variable) { return gis::read_netcdf_variable(file, variable).values; });
-    };
-    radiometry::AtmosphereSet set;
-    if (source.file) {
-        set.tables.push_back(read_table(*source.file));
-        return set;
-    }
-    for (const auto& needed : radiometry::needed_files(source.model, source.visibility_km, ground_elevation_m))
-        set.tables.push_back(read_table(data_folder() / "atmosphere" / needed.file));
-    return set;
+    if (source.file)
+        return {{radiometry::make_atmosphere_table(
+            [&](const std::string& variable) { return gis::read_netcdf_variable(*source.file, variable).values; })}};
+    return radiometry::make_atmosphere_set(source.model, source.visibility_km, ground_elevation_m,
+                                           [](const std::string& file, const std::string& variable) {
+                                               return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
+                                           });
 }
 
 }  // namespace
@@ -184,9 +179,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
     conditions.sun_distance_AU = sun.distance_AU;
     const auto set = load_atmosphere(scenario, conditions.ground_elevation_m);
     out.atmosphere = radiometry::make_view_atmosphere(set, conditions, out.grid, albedo);
-    if (scenario.render.sun && sun.zenith_rad > 75.0 * kDegree_rad && sun.zenith_rad < 90.0 * kDegree_rad)
-        report.warn(fmt::format("sun zenith {:.1f} deg is beyond the atmosphere table (75 deg): solar terms use 75 deg",
-                                sun.zenith_rad / kDegree_rad));
+    for (const auto& warning : radiometry::atmosphere_warnings(set, conditions)) report.warn("atmosphere: " + warning);
     return out;
 }
 
