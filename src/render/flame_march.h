@@ -1,48 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "base/vec3.h"
 #include "fire/flame_field.h"
+#include "render/lattice_walk.h"
 
 namespace pyroscene::render {
 
 namespace detail {
-
-/// Marching along one axis of a lattice: which cell the ray is in and where it leaves it. Positions are ray parameters in
-/// [0, 1]; every crossing is computed from the cell's index, never summed up, so that lengths telescope exactly.
-struct AxisWalk {
-    double origin, rate, inverse;  ///< in cells; rate per whole ray
-    int cell = 0, step = 0;
-
-    AxisWalk(double from, double to) noexcept
-        : origin(from),
-          rate(to - from),
-          inverse(rate != 0.0 ? 1.0 / rate : 0.0),
-          step(rate > 0.0   ? 1
-               : rate < 0.0 ? -1
-                            : 0) {}
-
-    /// Cuts [begin, end] to where lower <= position <= upper.
-    void clip(double lower, double upper, double& begin, double& end) const noexcept {
-        if (step == 0) {
-            if (origin < lower || origin >= upper) end = -1.0;
-            return;
-        }
-        const double a = (lower - origin) * inverse, b = (upper - origin) * inverse;
-        begin = std::max(begin, std::min(a, b));
-        end = std::min(end, std::max(a, b));
-    }
-    void enter(double at, double cell_size, int lowest, int highest) noexcept {
-        cell = std::clamp(static_cast<int>(std::floor((origin + rate * at) / cell_size)), lowest, highest);
-    }
-    [[nodiscard]] double leaves(double cell_size) const noexcept {
-        if (step == 0) return std::numeric_limits<double>::infinity();
-        return ((cell + (step > 0 ? 1 : 0)) * cell_size - origin) * inverse;
-    }
-};
 
 /// Voxels of one brick column between ray parameters [begin, end]. Returns false when `visit` asked to stop.
 template <class Visit>
@@ -109,7 +73,7 @@ void FlameMarcher::march(Vec3 start_m, Vec3 end_m, Visit&& visit) const {
     if (end_i_ == first_i_) return;
     const fire::VoxelGrid& g = field_->grid;
     const Vec3 from = start_m - g.corner_m, to = end_m - g.corner_m;
-    detail::AxisWalk x(from.x / g.dx_m, to.x / g.dx_m), y(from.y / g.dy_m, to.y / g.dy_m), z(from.z / g.dz_m, to.z / g.dz_m);
+    AxisWalk x(from.x / g.dx_m, to.x / g.dx_m), y(from.y / g.dy_m, to.y / g.dy_m), z(from.z / g.dz_m, to.z / g.dz_m);
 
     double begin = 0.0, end = 1.0;
     x.clip(first_i_ * kEdge, end_i_ * kEdge, begin, end);
@@ -118,30 +82,13 @@ void FlameMarcher::march(Vec3 start_m, Vec3 end_m, Visit&& visit) const {
     if (!(begin < end)) return;
 
     const double ray_m = length(end_m - start_m);
-    x.enter(begin, kEdge, first_i_, end_i_ - 1);
-    y.enter(begin, kEdge, first_j_, end_j_ - 1);
-    double next_x = x.leaves(kEdge), next_y = y.leaves(kEdge);
-    for (double at = begin; at < end;) {
-        const double next = std::min(next_x, next_y);
-        const double until = std::min(next, end);
-        const auto& column =
-            field_->columns[static_cast<std::size_t>(y.cell) * static_cast<std::size_t>(field_->brick_cols) +
-                            static_cast<std::size_t>(x.cell)];
-        if (column.brick_count > 0 && until > at &&
-            !detail::march_column(*field_, column, x.cell, y.cell, x, y, z, at, until, ray_m, visit)) {
-            return;
-        }
-        if (next == next_x) {
-            x.cell += x.step;
-            if (x.cell < first_i_ || x.cell >= end_i_) return;
-            next_x = x.leaves(kEdge);
-        } else {
-            y.cell += y.step;
-            if (y.cell < first_j_ || y.cell >= end_j_) return;
-            next_y = y.leaves(kEdge);
-        }
-        at = std::max(at, until);
-    }
+    walk_cells(
+        x, y, begin, end, kEdge, {first_i_, first_j_, end_i_, end_j_}, [&](int i, int j, double from_at, double to_at) {
+            const auto& column = field_->columns[static_cast<std::size_t>(j) * static_cast<std::size_t>(field_->brick_cols) +
+                                                 static_cast<std::size_t>(i)];
+            return column.brick_count == 0 ||
+                   detail::march_column(*field_, column, i, j, x, y, z, from_at, to_at, ray_m, visit);
+        });
 }
 
 }  // namespace pyroscene::render

@@ -1,5 +1,7 @@
 #include "render/ground_mix.h"
 
+#include <algorithm>
+
 namespace pyroscene::render {
 
 GroundMix::GroundMix(const SceneTables& tables)
@@ -76,6 +78,29 @@ void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out)
         for (const LitPart& part : lit_) resolve_lit(part, *flame_light, out);
     }
     lit_.clear();
+}
+
+GroundCell ground_cell(const RenderScene& scene, const SceneTables& tables, Vec3 point_m) noexcept {
+    const double x_m = point_m.x + scene.scene_origin_m.x, y_m = point_m.y + scene.scene_origin_m.y;
+    const auto cell = [&](const MapGrid& grid) {  // a hit on the very rim may round to the outside
+        return grid.index(std::clamp(static_cast<int>(grid.row_at(y_m)), 0, grid.rows - 1),
+                          std::clamp(static_cast<int>(grid.col_at(x_m)), 0, grid.cols - 1));
+    };
+    const fire::SurfaceField& surface = *scene.surface;
+    const std::size_t fine = cell(surface.grid);
+    GroundCell ground;
+    ground.base_K = surface.base_temperature_K[fine];
+    ground.front_fraction = std::clamp(surface.front_fraction[fine], 0.0F, 1.0F);
+    ground.burned = surface.burned[fine] != 0;
+    ground.base_material = ground.burned ? tables.burnt_material : scene.cover->values[cell(scene.cover->grid)];
+    return ground;
+}
+
+void add_ground(const SceneTables& tables, const GroundCell& ground, double weight, const GroundLight& light,
+                GroundMix& mix) {
+    const double f = ground.front_fraction;
+    if (f > 0.0) mix.add(tables.burnt_material, tables.front_K, weight * f, light);
+    if (f < 1.0) mix.add(ground.base_material, ground.base_K, weight * (1.0 - f), light);
 }
 
 }  // namespace pyroscene::render

@@ -64,4 +64,19 @@ private:
     std::vector<LitPart> lit_;
 };
 
+/// The ground at one place: what burns, what has burned, which material.
+struct GroundCell {
+    int base_material = 0;
+    double base_K = 0.0;          ///< NaN or 0 where there is no data
+    double front_fraction = 0.0;  ///< part that flames
+    bool burned = false;
+};
+
+/// The ground under a point of the scene frame.
+GroundCell ground_cell(const RenderScene& scene, const SceneTables& tables, Vec3 point_m) noexcept;
+
+/// Adds the ground of a cell, front and rest, to a mix.
+void add_ground(const SceneTables& tables, const GroundCell& ground, double weight, const GroundLight& light,
+                GroundMix& mix);
+
 }  // namespace pyroscene::render

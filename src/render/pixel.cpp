@@ -36,39 +36,36 @@ void Pixel::begin() {
 
 void Pixel::add_ray(const SceneRay& ray, double weight) {
     const auto hit = prepared_->scene.terrain->intersect(ray.start_m, ray.end_m);
-    GroundView view;
-    if (!hit || !look_at_ground(*hit, view)) return;
+    if (!hit) return;
+    const PreparedScene& p = *prepared_;
+    const GroundCell ground = ground_cell(p.scene, p.tables, hit->point_m);
+    if (!(ground.base_K > 0.0)) return;  // no data
     truth_.coverage += weight;
     truth_.hit_m = truth_.hit_m + weight * hit->point_m;
 
     march(ray.start_m, hit->point_m);
-    const double tau_truth = pieces_.empty() ? 1.0 : flame_truth(weight);
-    add_ground_truth(view, weight * tau_truth);
-    if (pieces_.empty())
-        add_ground(mix_, view, weight);
-    else if (prepared_->tables.grey)
-        add_ground(mix_, view, weight * add_grey_flame(weight));
+    const GroundLight light = light_at(*hit);
+    if (pieces_.empty()) {
+        add_ground_truth(ground, weight);
+        add_ground(p.tables, ground, weight, light, mix_);
+        return;
+    }
+    add_ground_truth(ground, weight * flame_truth(weight));
+    if (p.tables.grey)
+        add_ground(p.tables, ground, weight * add_grey_flame(weight), light, mix_);
     else
-        add_flame_spectrally(weight, view);
+        add_flame_spectrally(weight, ground, light);
 }
 
-bool Pixel::look_at_ground(const TerrainMesh::Hit& hit, GroundView& view) const {
+GroundLight Pixel::light_at(const TerrainMesh::Hit& hit) const {
     const RenderScene& scene = prepared_->scene;
-    const double x_m = hit.point_m.x + scene.scene_origin_m.x, y_m = hit.point_m.y + scene.scene_origin_m.y;
-    const auto cell = [&](const MapGrid& grid) {
-        return grid.index(std::clamp(static_cast<int>(grid.row_at(y_m)), 0, grid.rows - 1),
-                          std::clamp(static_cast<int>(grid.col_at(x_m)), 0, grid.cols - 1));
-    };
-    const fire::SurfaceField& surface = *scene.surface;
-    const std::size_t fine = cell(surface.grid);
-    view.base_K = surface.base_temperature_K[fine];
-    if (!(view.base_K > 0.0)) return false;  // no data
-    view.front_fraction = std::clamp(surface.front_fraction[fine], 0.0F, 1.0F);
-    view.burned = surface.burned[fine] != 0;
-    view.base_material = view.burned ? scene.optics->burnt_material : scene.cover->values[cell(scene.cover->grid)];
-    if (prepared_->flame_light != nullptr) light_around(*prepared_->flame_light, x_m, y_m, view.light);
-    if (prepared_->tables.has_sun) view.light.sun_cosine = sun_cosine(scene, hit);
-    return true;
+    GroundLight light;
+    if (prepared_->flame_light != nullptr) {
+        light_around(*prepared_->flame_light, hit.point_m.x + scene.scene_origin_m.x, hit.point_m.y + scene.scene_origin_m.y,
+                     light);
+    }
+    if (prepared_->tables.has_sun) light.sun_cosine = sun_cosine(scene, hit);
+    return light;
 }
 
 void Pixel::march(Vec3 start_m, Vec3 hit_m) {
@@ -117,7 +114,7 @@ double Pixel::add_grey_flame(double weight) {
     return tau;
 }
 
-void Pixel::add_flame_spectrally(double weight, const GroundView& view) {
+void Pixel::add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light) {
     const SceneTables& t = prepared_->tables;
     std::fill(tau_.begin(), tau_.end(), 1.0F);
     flame_used_ = true;
@@ -128,34 +125,28 @@ void Pixel::add_flame_spectrally(double weight, const GroundView& view) {
     }
     ground_used_ = true;
     ground_of_ray_.clear();
-    add_ground(mix_of_ray_, view, weight);
+    add_ground(t, ground, weight, light, mix_of_ray_);
     mix_of_ray_.resolve(prepared_->flame_light, ground_of_ray_);
     for (int p = 0; p < GroundSpectra::kParts; ++p) {
         kernels_->add_product(t.stride, 1.0F, tau_.data(), ground_of_ray_.part(p), ground_.part(p));
     }
 }
 
-void Pixel::add_ground(GroundMix& mix, const GroundView& view, double weight) const {
-    const double f = view.front_fraction;
-    if (f > 0.0) mix.add(prepared_->scene.optics->burnt_material, prepared_->tables.front_K, weight * f, view.light);
-    if (f < 1.0) mix.add(view.base_material, view.base_K, weight * (1.0 - f), view.light);
-}
-
-void Pixel::add_ground_truth(const GroundView& view, double weight) {
+void Pixel::add_ground_truth(const GroundCell& ground, double weight) {
     const SceneTables& t = prepared_->tables;
-    const double front = weight * view.front_fraction, rest = weight - front;
+    const double front = weight * ground.front_fraction, rest = weight - front;
     const auto emissivity = [&](int material) { return t.broadband_emissivity[static_cast<std::size_t>(material)]; };
-    const double burnt_emissivity = emissivity(prepared_->scene.optics->burnt_material);
+    const double burnt_emissivity = emissivity(t.burnt_material);
     truth_.front += front;
     truth_.exitance_W_m2 += front * burnt_emissivity * kStefanBoltzmann_W_m2_K4 * fourth_power(t.front_K);
-    if (view.burned) {
+    if (ground.burned) {
         truth_.scar += rest;
-        truth_.exitance_W_m2 += rest * emissivity(view.base_material) * kStefanBoltzmann_W_m2_K4 *
-                                (fourth_power(view.base_K) - fourth_power(t.ambient_K));
+        truth_.exitance_W_m2 += rest * emissivity(ground.base_material) * kStefanBoltzmann_W_m2_K4 *
+                                (fourth_power(ground.base_K) - fourth_power(t.ambient_K));
     } else {
         truth_.background += rest;
     }
-    truth_.ground_T4 += front * fourth_power(t.front_K) + rest * fourth_power(view.base_K);
+    truth_.ground_T4 += front * fourth_power(t.front_K) + rest * fourth_power(ground.base_K);
 }
 
 void Pixel::finish() {

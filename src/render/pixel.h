@@ -50,21 +50,12 @@ private:
         float temperature_K;
         double fill_length_m;  ///< length x filled fraction
     };
-    /// What a ray sees of the ground, before flame in front of it.
-    struct GroundView {
-        int base_material = 0;
-        double base_K = 0.0, front_fraction = 0.0;
-        bool burned = false;
-        GroundLight light;
-    };
-
-    bool look_at_ground(const TerrainMesh::Hit& hit, GroundView& view) const;
+    [[nodiscard]] GroundLight light_at(const TerrainMesh::Hit& hit) const;
     void march(Vec3 start_m, Vec3 hit_m);
     double flame_truth(double weight);
     double add_grey_flame(double weight);
-    void add_flame_spectrally(double weight, const GroundView& view);
-    void add_ground(GroundMix& mix, const GroundView& view, double weight) const;
-    void add_ground_truth(const GroundView& view, double weight);
+    void add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light);
+    void add_ground_truth(const GroundCell& ground, double weight);
 
     const PreparedScene* prepared_;
     const SpectralKernels* kernels_;

@@ -51,9 +51,17 @@ PlanckRows::Lookup PlanckRows::at(double temperature_K) const noexcept {
             return found;
         }
     }
+    return at_position(position_of(temperature_K));
+}
+
+double PlanckRows::position_of(double temperature_K) const noexcept {
+    if (nodes_ == 0) return 0.0;
+    return (1.0 / std::clamp(temperature_K, lowest_K_, highest_K_) - first_per_K_) * nodes_per_K_;  // >= 1
+}
+
+PlanckRows::Lookup PlanckRows::at_position(double position) const noexcept {
+    Lookup found;
     if (nodes_ == 0) return found;
-    const double T_K = std::clamp(temperature_K, lowest_K_, highest_K_);
-    const double position = (1.0 / T_K - first_per_K_) * nodes_per_K_;  // >= 1
     const int i = std::clamp(static_cast<int>(position), 1, nodes_ - 3);
     const auto f = static_cast<float>(position - i), g = 1.0F - f;
     found.row = i - 1;

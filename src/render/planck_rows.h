@@ -26,6 +26,10 @@ public:
                std::span<const double> exact_K, double resolution = 0.08);
 
     [[nodiscard]] Lookup at(double temperature_K) const noexcept;
+    /// The same in two steps, the first to be done once per voxel: node position of a temperature (0 in a table that has
+    /// no nodes but only one exact temperature), and the weights at that position.
+    [[nodiscard]] double position_of(double temperature_K) const noexcept;
+    [[nodiscard]] Lookup at_position(double position) const noexcept;
     [[nodiscard]] const float* row(int i) const noexcept { return values_.data() + static_cast<std::size_t>(i) * stride_; }
     [[nodiscard]] int row_count() const noexcept { return rows_; }
     [[nodiscard]] int stride() const noexcept { return static_cast<int>(stride_); }

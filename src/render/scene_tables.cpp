@@ -104,6 +104,7 @@ SceneTables::SceneTables(const RenderScene& scene) {
     lambdas = optics.lambda_count;
     stride = padded(lambdas);
     materials = optics.material_count;
+    burnt_material = optics.burnt_material;
     front_K = static_cast<float>(scene.surface->front_temperature_K);
     ambient_K = static_cast<float>(scene.surface->ambient_temperature_K);
     const auto [lowest, highest] = temperature_range_K(scene);

@@ -23,7 +23,7 @@ struct SceneTables {
         }
     };
 
-    int lambdas = 0, stride = 0, materials = 0;
+    int lambdas = 0, stride = 0, materials = 0, burnt_material = 0;
     PlanckRows planck;                    ///< all temperatures of flame and ground
     std::vector<float> absorption_per_m;  ///< of flame
     bool grey = false;

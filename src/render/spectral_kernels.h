@@ -15,6 +15,10 @@ struct SpectralKernels {
     /// tau is kept above 1e-20: denormal numbers cost ten times as much.
     void (*emit)(int n, const float* k, float depth, const float* rows, int row_stride, int row_count, const float* weight,
                  float scale, float* tau, float* flame);
+    /// The same for `n` absorption coefficients k instead of wavelengths, the emission left as weights of Planck rows:
+    ///   sums[j][i] += scale weight[j] tau[i] (1 - exp(-k[i] depth)),   tau[i] *= exp(-k[i] depth);   row_count is 1 or 4
+    void (*emit_weights)(int n, const float* k, float depth, int row_count, const float* weight, float scale, float* tau,
+                         float* sums);
     /// out += sum_j weight[j] row_j
     void (*add_rows)(int n, const float* rows, int row_stride, int row_count, const float* weight, float* out);
     /// out += a x y
