@@ -15,7 +15,7 @@ constexpr double kMargin_px = 4.0;
 constexpr double kFirstStep_px = 16.0, kFinestStep_px = 1.0;
 constexpr double kMaximumNodes = 1048576.0;  // 134 MB
 /// Largest interpolation error allowed on the ground when the lattice is made; half of what the header promises.
-constexpr double kTolerance_m = 5e-4;
+constexpr double kTolerance_m = 5e-4, kTolerance_px = 5e-6;
 
 /// Where the numbers of a chord lie in a lattice node.
 enum Slot {
@@ -27,7 +27,8 @@ enum Slot {
     kBottomLat = 9,
     kView = 10,
     kTopRange = 13,
-    kBottomRange
+    kBottomRange = 14,
+    kSlots = 16
 };
 
 /// Exact chords of one frame.
@@ -43,7 +44,7 @@ public:
                                           pose.position.h_m, bottom_m));
     }
 
-    [[nodiscard]] std::array<double, 16> at(double sample, double line) const {
+    [[nodiscard]] std::array<double, kSlots> at(double sample, double line) const {
         const EcefRay ray = pixel_ray(sensor_, group_, pose_, sample, line);
         const double bottom_range_m = distance_to_height_m(ray, bottom_m_);
         const bool starts_inside = pose_.position.h_m <= top_m_;
@@ -119,12 +120,27 @@ Stencil stencil(double position, double step, int nodes) noexcept {
     return {first, lagrange_weights(u - (first + 1))};
 }
 
-double ground_error_m(const std::array<double, 16>& a, const std::array<double, 16>& b) noexcept {
+double ground_distance_m(const std::array<double, kSlots>& a, const std::array<double, kSlots>& b) noexcept {
     return std::max(std::hypot(a[kTop] - b[kTop], a[kTop + 1] - b[kTop + 1]),
                     std::hypot(a[kBottom] - b[kBottom], a[kBottom + 1] - b[kBottom + 1]));
 }
 
 }  // namespace
+
+template <std::size_t count>
+std::array<double, count> FrameChords::interpolate(double sample, double line) const noexcept {
+    const Stencil across = stencil(sample - first_, col_step_, cols_), along = stencil(line - first_, row_step_, rows_);
+    std::array<double, count> sum{};
+    for (int j = 0; j < 4; ++j) {
+        const Node* row = &nodes_[static_cast<std::size_t>(along.first + j) * static_cast<std::size_t>(cols_) +
+                                  static_cast<std::size_t>(across.first)];
+        for (int i = 0; i < 4; ++i) {
+            const double w = along.weight[static_cast<std::size_t>(j)] * across.weight[static_cast<std::size_t>(i)];
+            for (std::size_t k = 0; k < count; ++k) sum[k] += w * row[i][k];
+        }
+    }
+    return sum;
+}
 
 FrameChords::FrameChords(const Sensor& sensor, const CameraGroup& group, const Pose& pose, const gis::MapProjection& map,
                          Vec3 scene_origin_m, double bottom_m, double top_m) {
@@ -141,35 +157,25 @@ FrameChords::FrameChords(const Sensor& sensor, const CameraGroup& group, const P
         for (int row = 0; row < rows_; ++row)
             for (int col = 0; col < cols_; ++col)
                 nodes_.push_back(exact.at(first_ + col * col_step_, first_ + row * row_step_));
-        double error_m = 0.0;
+        double error = 0.0;  // in tolerances
         for (const int row : {0, rows_ / 2, rows_ - 2})
             for (const int col : {0, cols_ / 2, cols_ - 2}) {
                 const double sample = first_ + (col + 0.5) * col_step_, line = first_ + (row + 0.5) * row_step_;
-                error_m = std::max(error_m, ground_error_m(exact.at(sample, line), interpolate(sample, line)));
+                const auto here = interpolate<kSlots>(sample, line);
+                const double pixel_m = std::max(ground_distance_m(interpolate<kSlots>(sample + 1.0, line), here),
+                                                ground_distance_m(interpolate<kSlots>(sample, line + 1.0), here));
+                error = std::max(error, ground_distance_m(exact.at(sample, line), here) /
+                                            std::max(kTolerance_m, kTolerance_px * pixel_m));
             }
         // The error falls with the fourth power of the step, so that very oblique frames get a finer lattice at once.
         const double finest = std::max(kFinestStep_px, std::sqrt(width * height / kMaximumNodes));
-        if (error_m < kTolerance_m || step <= finest) return;
-        step = std::max(finest, 0.9 * step * std::min(1.0, std::pow(kTolerance_m / error_m, 0.25)));
+        if (error < 1.0 || step <= finest) return;
+        step = std::max(finest, 0.9 * step * std::min(1.0, std::pow(error, -0.25)));
     }
-}
-
-FrameChords::Node FrameChords::interpolate(double sample, double line) const noexcept {
-    const Stencil across = stencil(sample - first_, col_step_, cols_), along = stencil(line - first_, row_step_, rows_);
-    Node sum{};
-    for (int j = 0; j < 4; ++j) {
-        const Node* row = &nodes_[static_cast<std::size_t>(along.first + j) * static_cast<std::size_t>(cols_) +
-                                  static_cast<std::size_t>(across.first)];
-        for (int i = 0; i < 4; ++i) {
-            const double w = along.weight[static_cast<std::size_t>(j)] * across.weight[static_cast<std::size_t>(i)];
-            for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += w * row[i][k];
-        }
-    }
-    return sum;
 }
 
 Chord FrameChords::at(double sample, double line) const noexcept {
-    const Node n = interpolate(sample, line);
+    const auto n = interpolate<kSlots>(sample, line);
     const auto wrapped = [](double lon_deg) {
         return lon_deg < -180.0 ? lon_deg + 360.0 : lon_deg >= 180.0 ? lon_deg - 360.0 : lon_deg;
     };
@@ -182,6 +188,11 @@ Chord FrameChords::at(double sample, double line) const noexcept {
             .view_enu = normalized({n[kView], n[kView + 1], n[kView + 2]}),
             .top_range_m = n[kTopRange],
             .bottom_range_m = n[kBottomRange]};
+}
+
+FrameChords::Ends FrameChords::ends(double sample, double line) const noexcept {
+    const auto n = interpolate<kBottom + 3>(sample, line);
+    return {{n[kTop], n[kTop + 1], n[kTop + 2]}, {n[kBottom], n[kBottom + 1], n[kBottom + 2]}};
 }
 
 }  // namespace pyroscene::sensors

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "base/vec3.h"
@@ -64,11 +65,17 @@ public:
                 Vec3 scene_origin_m, double bottom_m, double top_m);
     /// \param sample, line image position, pixel corners at integers, from a little outside the frame (-4) on.
     [[nodiscard]] Chord at(double sample, double line) const noexcept;
+    /// Only the ends, at half the cost: all that a ray tracer needs of a sub-ray.
+    struct Ends {
+        Vec3 top_m, bottom_m;
+    };
+    [[nodiscard]] Ends ends(double sample, double line) const noexcept;
 
 private:
-    using Node = std::array<double, 16>;  ///< the 15 numbers of a Chord, padded to whole vector registers
+    using Node = std::array<double, 16>;  ///< the 15 numbers of a Chord, ends first, padded to whole vector registers
 
-    [[nodiscard]] Node interpolate(double sample, double line) const noexcept;
+    template <std::size_t count>
+    [[nodiscard]] std::array<double, count> interpolate(double sample, double line) const noexcept;
 
     int cols_ = 0, rows_ = 0;                               ///< lattice nodes
     double first_ = 0.0, col_step_ = 0.0, row_step_ = 0.0;  ///< image position of node 0, distance of nodes [px]
