@@ -48,7 +48,8 @@ Polygon cut(const Polygon& p, double Point::*coordinate, double bound, double si
 /// A target cell in source pixel coordinates, oriented so that its area is positive.
 class Quadrilateral {
 public:
-    explicit Quadrilateral(Polygon p) : polygon_(p) {
+    explicit Quadrilateral(const CellOutline& outline) {
+        for (std::size_t i = 0; i < 4; ++i) polygon_.add({outline.col[i], outline.row[i]});
         if (signed_area(polygon_) < 0.0) std::reverse(polygon_.corners.begin(), polygon_.corners.begin() + 4);
         low_ = high_ = polygon_.corners[0];
         for (std::size_t i = 0; i < 4; ++i) {
@@ -90,64 +91,26 @@ private:
 /// Below this share of valid area a cell counts as not covered: it is rounding, not data.
 constexpr double kLeastCoverage = 1e-6;
 
-float average(const Quadrilateral& cell, const SourcePixels& source) {
-    const PixelWindow& w = source.window;
-    double area = 0.0, covered = 0.0, sum = 0.0;
-    for (int row = static_cast<int>(std::floor(cell.low().y)); row < cell.high().y; ++row) {
-        const double weight = source.weight_of_row(row);
-        for (int col = static_cast<int>(std::floor(cell.low().x)); col < cell.high().x; ++col) {
-            const double part = weight * cell.overlap(col, row);
-            area += part;
-            if (part == 0.0 || row < w.row || row >= w.row + w.rows || col < w.col || col >= w.col + w.cols) continue;
-            const auto index = static_cast<std::size_t>(row - w.row) * static_cast<std::size_t>(w.cols) +
-                               static_cast<std::size_t>(col - w.col);
-            const double value = source.values[index];
-            if (std::isnan(value)) continue;
-            covered += part;
-            sum += part * value;
-        }
-    }
-    return covered > kLeastCoverage * area ? static_cast<float>(sum / area) : std::numeric_limits<float>::quiet_NaN();
-}
-
-/// Corners of one grid line, mapped at once.
-struct CornerLine {
-    std::vector<double> col, row;
-};
-
-CornerLine map_corners(const GridMapping& mapping, int grid_cols, int grid_row) {
-    CornerLine line;
-    for (int col = 0; col <= grid_cols; ++col) line.col.push_back(col);
-    line.row.assign(line.col.size(), grid_row);
-    mapping.grid_to_source(line.col, line.row);
-    return line;
-}
-
 }  // namespace
 
 double SourcePixels::weight_of_row(int row) const noexcept {
     return row_weights[static_cast<std::size_t>(std::clamp(row - window.row, 0, window.rows - 1))];
 }
 
-void average_by_area(const GridMapping& mapping, const SourcePixels& source, int grid_cols, int first_row, int last_row,
-                     float* out) {
-    // A cell far wider than its neighbours has been torn apart by the edge of the source's longitudes.
-    const double widest = 16.0 + 8.0 * mapping.cols_per_cell();
-    CornerLine upper = map_corners(mapping, grid_cols, first_row);
-    for (int row = first_row; row < last_row; ++row) {
-        CornerLine lower = map_corners(mapping, grid_cols, row + 1);
-        for (std::size_t c = 0; c < static_cast<std::size_t>(grid_cols); ++c, ++out) {
-            Polygon p;
-            p.add({upper.col[c], upper.row[c]});
-            p.add({upper.col[c + 1], upper.row[c + 1]});
-            p.add({lower.col[c + 1], lower.row[c + 1]});
-            p.add({lower.col[c], lower.row[c]});
-            const Quadrilateral cell(p);
-            const bool usable = std::isfinite(signed_area(p)) && cell.high().x - cell.low().x < widest;
-            *out = usable ? average(cell, source) : std::numeric_limits<float>::quiet_NaN();
+float average_by_area(const SourcePixels& source, const CellOutline& outline) noexcept {
+    const Quadrilateral cell(outline);
+    double area = 0.0, covered = 0.0, sum = 0.0;
+    for (int row = static_cast<int>(std::floor(cell.low().y)); row < cell.high().y; ++row) {
+        const double weight = source.weight_of_row(row);
+        for (int col = static_cast<int>(std::floor(cell.low().x)); col < cell.high().x; ++col) {
+            const double part = weight * cell.overlap(col, row), value = source.at(col, row);
+            area += part;
+            if (part == 0.0 || std::isnan(value)) continue;
+            covered += part;
+            sum += part * value;
         }
-        upper = std::move(lower);
     }
+    return covered > kLeastCoverage * area ? static_cast<float>(sum / area) : std::numeric_limits<float>::quiet_NaN();
 }
 
 }  // namespace pyroscene::gis

@@ -37,7 +37,7 @@ namespace {
 std::string describe(const std::array<double, 6>& gt, int cols, int rows, const std::string& crs) {
     const CrsTransform to_lonlat(crs, kGeographicCrs);
     const Extent e = extent_of(gt, cols, rows, &to_lonlat);
-    return fmt::format("longitude {:.5g} to {:.5g}, latitude {:.5g} to {:.5g}", e.west, e.east, e.south, e.north);
+    return fmt::format("longitude {:.4f} to {:.4f}, latitude {:.4f} to {:.4f}", e.west, e.east, e.south, e.north);
 }
 
 }  // namespace

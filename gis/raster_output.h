@@ -14,9 +14,9 @@ namespace pyroscene::gis {
 /// What a band carries besides its pixels. Wavelengths are written in band metadata (wavelength, wavelength_units, fwhm), in
 /// the ENVI domain and in the IMAGERY domain.
 struct OutputBand {
-    std::string description, unit;
-    std::optional<double> wavelength_um, fwhm_um;
-    std::map<std::string, std::string> metadata;
+    std::string description{}, unit{};
+    std::optional<double> wavelength_um{}, fwhm_um{};
+    std::map<std::string, std::string> metadata{};
 };
 
 /// Ties pixels of a sensor-geometry image to the ground.
