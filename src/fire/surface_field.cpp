@@ -56,11 +56,13 @@ void list_fine_cells(const Context& c, const SurfaceField& out, int row, int col
 }
 
 /// Scar temperature of every fine cell. The clock is the fine cell's own arrival, unless the map cell was seen burning
-/// later.
+/// later. Where the fire reached the middle of the cell but not all of it, the rest is still vegetation.
 void fill_scar(const Context& c, SurfaceField& out, std::size_t cell, const std::vector<FineCell>& fine) {
     const float clock_s = c.state.last_burning_time_s.values[cell];
     const bool seen_burning = !(clock_s <= c.state.arrival_time_s.values[cell]);
+    const bool partly_reached = c.has_arrival && c.state.predicted_arrival_time_s.values[cell] <= c.time_s && !seen_burning;
     for (const FineCell& f : fine) {
+        if (partly_reached && !f.reached) continue;
         const bool own = !std::isnan(f.arrival_s) && f.reached && !(seen_burning && f.arrival_s < clock_s);
         out.base_temperature_K[f.index] = scar_K(c, own ? f.arrival_s : clock_s);
         out.burned[f.index] = 1;
@@ -91,12 +93,14 @@ void distribute_flames(const Context& c, SurfaceField& out, double fraction, std
     }
 }
 
-/// Ground of a front cell: flames, the part they have left behind and the part they have not reached.
+/// Ground of a front cell: flames, the part they have left behind and the part they have not reached. Without arrival data
+/// the part that does not flame is vegetation in the first frame that shows the cell burning, and scar from then on.
 void fill_front(const Context& c, SurfaceField& out, std::size_t cell, std::vector<FineCell>& fine) {
     const float fraction = c.state.front_fraction.values[cell];
     const float first_burning_s = c.state.arrival_time_s.values[cell];
+    const bool fresh = first_burning_s >= c.state.time_s;
     for (const FineCell& f : fine) {
-        if (!f.reached) continue;
+        if (!f.reached || (std::isnan(f.arrival_s) && fresh)) continue;
         out.base_temperature_K[f.index] = scar_K(c, std::isnan(f.arrival_s) ? first_burning_s : f.arrival_s);
         out.burned[f.index] = 1;
     }

@@ -101,6 +101,16 @@ TEST(FrontStrip, TakesTheCellsOwnTimeBesideCellsThatNeverBurn) {
     for (int col = 2; col < 4; ++col) EXPECT_NEAR(celsius(field, 1, col), scar_celsius(10.0), 1e-3);
 }
 
+TEST(FrontStrip, LeavesTheUnreachedPartOfAScarCellGreen) {
+    // One cell was reached at 50 s, its neighbours will be at 250 s: the fire is still inside the middle third.
+    const auto state = advance(nullptr, frame_with_arrival(100.0, {0.0F, 0.0F, 0.0F}, {250.0F, 50.0F, 250.0F}), kDefaults);
+    const auto field = surface_at(state, 100.0, kDefaults, 5);
+    ASSERT_EQ(state.cell_class.values[1], static_cast<std::uint8_t>(CellClass::Scar));
+    EXPECT_NEAR(celsius(field, 2, 7), scar_celsius(50.0), 1e-3);
+    EXPECT_NEAR(celsius(field, 2, 5), 34.0, 1e-3);  // interpolated arrival 50 + 0.4 x 200 = 130 s
+    EXPECT_EQ(field.burned[field.grid.index(2, 5)], 0);
+}
+
 TEST(FrontPatches, WithoutArrivalTimesAreRandomButReproducible) {
     const auto state = advance(nullptr, frame(100.0, std::vector<float>(20, 1.25e5F)), kDefaults);
     const auto field = surface_at(state, 130.0, kDefaults, 4);
@@ -108,10 +118,13 @@ TEST(FrontPatches, WithoutArrivalTimesAreRandomButReproducible) {
     FireParameters other = kDefaults;
     other.seed = 2;
     EXPECT_NE(field.front_fraction, surface_at(state, 130.0, other, 4).front_fraction);
-    // The part without flames is scar since the first burning, and the pattern is not the same in all cells.
+    // The part without flames is vegetation in the first frame of the cell's fire and scar from the second on; the pattern
+    // is not the same in all cells.
+    const auto second = surface_at(advance(&state, frame(130.0, std::vector<float>(20, 1.25e5F)), kDefaults), 130.0, kDefaults, 4);
     int first_fine_cell_flames = 0;
     for (int col = 0; col < 20; ++col) {
-        EXPECT_NEAR(celsius(field, 0, 4 * col), scar_celsius(30.0), 1e-3);
+        EXPECT_NEAR(celsius(field, 0, 4 * col), 34.0, 1e-3);
+        EXPECT_NEAR(celsius(second, 0, 4 * col), scar_celsius(30.0), 1e-3);
         first_fine_cell_flames += field.front_fraction[field.grid.index(0, 4 * col)] > 0.0F ? 1 : 0;
     }
     EXPECT_GT(first_fine_cell_flames, 0);
@@ -151,11 +164,11 @@ TEST(Scar, StartsAtTheLastFrameThatShowedTheCellBurning) {
     for (int col = 0; col < 4; ++col) EXPECT_NEAR(celsius(field, 0, 4 + col), scar_celsius(300.0 - clock_s[col]), 1e-3);
 }
 
-TEST(Scar, BurntPartsThatTheInterpolationHasNotReachedTakeTheCellsClock) {
+TEST(Scar, PartsThatTheInterpolationHasNotReachedAreVegetation) {
     const auto field = surface_at(moving_east(101.0, 0.0F), 101.0, kDefaults, 4);
     for (const int col : {6, 7}) {
-        EXPECT_NEAR(celsius(field, 0, col), scar_celsius(1.0), 1e-3);
-        EXPECT_EQ(field.burned[field.grid.index(0, col)], 1);
+        EXPECT_NEAR(celsius(field, 0, col), 34.0, 1e-3);
+        EXPECT_EQ(field.burned[field.grid.index(0, col)], 0);
     }
 }
 
