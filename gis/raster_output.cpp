@@ -200,6 +200,17 @@ void write_tiled(const std::filesystem::path& path, const OutputRaster& raster, 
     file.commit();
 }
 
+/// Edge of a COG's tiles. The driver interleaves bands by pixel, so a tile holds all of them: many bands get smaller tiles,
+/// 16 MB at most, and a small raster no larger ones than it needs.
+int cog_tile(const OutputRaster& raster) {
+    constexpr std::size_t kMostTileBytes = 16 << 20, kSmallest = 128;
+    std::size_t tile = kTile;
+    while (tile > kSmallest && tile * tile * sizeof(float) * raster.bands.size() > kMostTileBytes) tile /= 2;
+    const auto edge = static_cast<std::size_t>(std::max(raster.cols, raster.rows));
+    while (tile > kSmallest && tile / 2 >= edge) tile /= 2;
+    return static_cast<int>(tile);
+}
+
 /// The pixels as a dataset without a copy. GDAL's interface is not const, but the COG driver only reads.
 template <class T>
 DatasetPtr memory_dataset(const OutputRaster& raster, const T* pixels, GDALDataType type) {
@@ -242,7 +253,8 @@ void write_cog(const std::filesystem::path& path, const OutputRaster& raster, st
     for (const Tag& tag : tags.before_writing())
         owner_of(*source, tag).SetMetadataItem(tag.key.c_str(), tag.value.c_str(), tag.domain.c_str());
     Options options;
-    options.set("BLOCKSIZE", std::to_string(kTile)).set("OVERVIEW_RESAMPLING", raster.classes ? "NEAREST" : "AVERAGE");
+    options.set("BLOCKSIZE", std::to_string(cog_tile(raster)))
+        .set("OVERVIEW_RESAMPLING", raster.classes ? "NEAREST" : "AVERAGE");
     options.set("PREDICTOR", raster.classes ? "NO" : "YES").set("BIGTIFF", "IF_SAFER");
     set_compression(options, raster, "LEVEL");
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("COG");
