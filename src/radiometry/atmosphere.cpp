@@ -108,14 +108,14 @@ std::vector<std::string> atmosphere_warnings(const AtmosphereSet& set, const Atm
     std::vector<std::string> out;
     const auto clamped = [&](const char* name, double value, double used, const char* unit) {
         out.push_back(
-            fmt::format("atmosphere: {} {:.6g} {} is outside the tables; {:.6g} {} is used", name, value, unit, used, unit));
+            fmt::format("{} {:.6g} {} is outside the tables; {:.6g} {} is used", name, value, unit, used, unit));
     };
     constexpr double kSlack = 1e-9, kElevationSlack_m = 200.0;  // changes tau by 0.03 at most
     if (point.view_zenith_rad > limits.view_zenith_rad + kSlack)
         clamped("view zenith", point.view_zenith_rad / kDegree_rad, limits.view_zenith_rad / kDegree_rad, "deg");
     if (c.sun_zenith_rad > limits.sun_zenith_rad + kSlack && c.sun_zenith_rad < 0.5 * kPi)
         out.push_back(
-            fmt::format("atmosphere: sun zenith {:.2f} deg is beyond the tables; {:.0f} deg is used, its light scaled "
+            fmt::format("sun zenith {:.2f} deg is beyond the tables; {:.0f} deg is used, its light scaled "
                         "with the cosine",
                         c.sun_zenith_rad / kDegree_rad, limits.sun_zenith_rad / kDegree_rad));
     if (c.sensor_altitude_agl_m < 0.0) clamped("sensor altitude", c.sensor_altitude_agl_m, 0.0, "m");
