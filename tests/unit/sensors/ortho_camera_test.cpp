@@ -26,9 +26,9 @@ void PrintTo(const View& view, std::ostream* out) { *out << view.name; }
 
 constexpr double kLowest_m = 900.0, kHighest_m = 2100.0;
 
-/// Hills with slopes up to 48 deg; x, y relative to the scene origin.
+/// Hills with slopes up to 46 deg; x, y relative to the scene origin.
 double terrain_z_m(double x_m, double y_m) {
-    return 1500.0 + 330.0 * std::sin(x_m / 450.0) * std::cos(y_m / 520.0) + 130.0 * std::sin((x_m + 0.7 * y_m) / 280.0);
+    return 1500.0 + 280.0 * std::sin(x_m / 450.0) * std::cos(y_m / 520.0) + 110.0 * std::sin((x_m + 0.7 * y_m) / 280.0);
 }
 
 /// First point of a chord on the terrain.
@@ -40,7 +40,7 @@ Vec3 first_hit(const Chord& chord) {
     double low = 0.0, high = 0.0;
     while (above(high) > 0.0) {
         low = high;
-        high += 1.0 / 32.0;  // slopes below 50 deg, views below 35 deg: a ray meets the ground once
+        high += 1.0 / 32.0;  // slopes below 47 deg, view zeniths below 43 deg: a ray meets the ground once
     }
     for (int i = 0; i < 32; ++i) (above(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
     return lerp(chord.top_m, chord.bottom_m, high);
