@@ -18,6 +18,7 @@ FlamePlanes::FlamePlanes(const fire::FlameField& field, const PlanckRows& planck
         }
     }
     occupied_.assign(field.columns.size(), -1);
+    first_part_.push_back(0);
     for (int j = 0; j < field.brick_rows; ++j) {
         for (int i = 0; i < field.brick_cols; ++i) {
             const auto at =
@@ -31,27 +32,40 @@ FlamePlanes::FlamePlanes(const fire::FlameField& field, const PlanckRows& planck
 
 void FlamePlanes::add_brick_column(const fire::FlameField::BrickColumn& column, int brick_i, int brick_j) {
     auto& ranges = ranges_.emplace_back();
-    int first_i = kEdge, end_i = 0, first_j = kEdge, end_j = 0;
     const int bottom = column.z_begin * kEdge, top = bottom + column.brick_count * kEdge;
-    for (int j = 0; j < kEdge; ++j) {
-        for (int i = 0; i < kEdge; ++i) {
-            KRange& range = ranges[static_cast<std::size_t>(j * kEdge + i)];
-            const std::int32_t first_voxel =
-                (column.first_brick - column.z_begin) * fire::FlameField::kBrickVoxels + j * kEdge + i;
-            for (int k = bottom; k < top; ++k) {
-                if (!(fill_[voxel(first_voxel, k)] > 0.0F)) continue;
-                if (range.end == 0) range.begin = k;
-                range.end = k + 1;
-            }
-            if (range.end == 0) continue;
-            first_i = std::min(first_i, i), end_i = std::max(end_i, i + 1);
-            first_j = std::min(first_j, j), end_j = std::max(end_j, j + 1);
+    for (int c = 0; c < kEdge * kEdge; ++c) {
+        KRange& range = ranges[static_cast<std::size_t>(c)];
+        const std::int32_t first_voxel = (column.first_brick - column.z_begin) * fire::FlameField::kBrickVoxels + c;
+        for (int k = bottom; k < top; ++k) {
+            if (!(fill_[voxel(first_voxel, k)] > 0.0F)) continue;
+            if (range.end == 0) range.begin = k;
+            range.end = k + 1;
         }
     }
+    boxes_.push_back(occupied_box(brick_i, brick_j, 0, 0, kEdge).value_or(Box{}));
+    constexpr int kPart = 2;
+    for (int j = 0; j < kEdge; j += kPart) {
+        for (int i = 0; i < kEdge; i += kPart) {
+            if (const auto part = occupied_box(brick_i, brick_j, i, j, kPart)) parts_.push_back(*part);
+        }
+    }
+    first_part_.push_back(parts_.size());
+}
+
+std::optional<FlamePlanes::Box> FlamePlanes::occupied_box(int brick_i, int brick_j, int i, int j, int size) const {
+    int first_i = kEdge, end_i = 0, first_j = kEdge, end_j = 0;
+    for (int v = j; v < j + size; ++v) {
+        for (int u = i; u < i + size; ++u) {
+            if (ranges_.back()[static_cast<std::size_t>(v * kEdge + u)].end == 0) continue;
+            first_i = std::min(first_i, u), end_i = std::max(end_i, u + 1);
+            first_j = std::min(first_j, v), end_j = std::max(end_j, v + 1);
+        }
+    }
+    if (end_i == 0) return std::nullopt;
     const fire::VoxelGrid& g = field_->grid;
-    const auto x_m = [&](int i) { return g.corner_m.x + (brick_i * kEdge + i) * g.dx_m; };
-    const auto y_m = [&](int j) { return g.corner_m.y + (brick_j * kEdge + j) * g.dy_m; };
-    boxes_.push_back({x_m(first_i), y_m(first_j), x_m(end_i), y_m(end_j)});
+    const auto x_m = [&](int u) { return g.corner_m.x + (brick_i * kEdge + u) * g.dx_m; };
+    const auto y_m = [&](int v) { return g.corner_m.y + (brick_j * kEdge + v) * g.dy_m; };
+    return Box{x_m(first_i), y_m(first_j), x_m(end_i), y_m(end_j)};
 }
 
 void FlamePlanes::cross(double x_m, double y_m, double dx, double dy, double reach_m, std::vector<PlaneColumn>& out) const {

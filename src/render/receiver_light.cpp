@@ -10,11 +10,13 @@ namespace pyroscene::render {
 namespace {
 
 constexpr double kPlanckResolution = 0.5;
-constexpr int kAzimuthBins = 512;
-constexpr int kLeastPlanes = 4;  ///< through a flame however narrow it looks
-constexpr int kLeastStrata = 3;
+constexpr float kSamePosition = 0.3F;  ///< neighbours closer than this in the Planck table are one piece of flame
+constexpr int kPointsNearFlame = 8;
+constexpr int kPlanesNearFlame = 4;  ///< a point near flame has this many times fewer planes
+constexpr int kLeastPlanes = 4;      ///< through a flame however narrow it looks
+constexpr int kLeastStrata = 4;
 constexpr double kStrataPerHemisphere = 24.0;
-constexpr double kOpaqueDepth = 14.0;
+constexpr double kOpaqueDepth = 9.0;
 
 /// Monotone stand-in for the azimuth of (dx, dy), 0 <= p < 4: the quadrant and the place in it. Spares the arc tangent.
 double diamond_angle(double dx, double dy) noexcept {
@@ -74,88 +76,126 @@ double skyline_slope(const TerrainMesh& terrain, Vec3 from_m, double dx, double 
 ReceiverLight::ReceiverLight(const LightScene& shared)
     : shared_(&shared),
       kernels_(&spectral_kernels()),
-      azimuth_marked_(kAzimuthBins, 0),
       tau_(static_cast<std::size_t>(shared.nodes.padded_count())),
       emitted_(static_cast<std::size_t>(shared.planck.row_count()) * tau_.size()) {}
 
-/// Marks the azimuths in which any flame within reach stands, seen from anywhere in the cell.
-void ReceiverLight::mark_azimuths(const Receiver& receiver) {
-    std::fill(azimuth_marked_.begin(), azimuth_marked_.end(), 0);
-    const double half_m = 0.5 * shared_->scene.terrain->grid().cell_m, reach_m = shared_->settings.reach_m;
-    constexpr double kBinsPerUnit = kAzimuthBins / 4.0;
-    for (const FlamePlanes::Box& box : shared_->flame.boxes()) {
-        const double west = box.west_m - receiver.x_m - half_m, east = box.east_m - receiver.x_m + half_m;
-        const double south = box.south_m - receiver.y_m - half_m, north = box.north_m - receiver.y_m + half_m;
-        const double gap_x = std::max({west, -east, 0.0}), gap_y = std::max({south, -north, 0.0});
-        if (gap_x * gap_x + gap_y * gap_y > reach_m * reach_m) continue;
-        if (gap_x == 0.0 && gap_y == 0.0) {
-            std::fill(azimuth_marked_.begin(), azimuth_marked_.end(), 1);
+bool ReceiverLight::is_near_flame(const Receiver& receiver) const {
+    const FlamePlanes& flame = shared_->flame;
+    const double cell_m = shared_->scene.terrain->grid().cell_m;
+    const auto near = [&](const FlamePlanes::Box& box) {
+        return box.squared_gap_m2(receiver.x_m, receiver.y_m, 0.5 * cell_m) < cell_m * cell_m;
+    };
+    for (std::size_t b = 0; b < flame.boxes().size(); ++b) {
+        if (!near(flame.boxes()[b])) continue;
+        const auto first = flame.parts().begin() + static_cast<std::ptrdiff_t>(flame.first_part(b));
+        const auto end = flame.parts().begin() + static_cast<std::ptrdiff_t>(flame.first_part(b + 1));
+        if (std::any_of(first, end, near)) return true;
+    }
+    return false;
+}
+
+/// Adds the azimuths of a box seen from a point; true when the point lies in the box.
+bool ReceiverLight::add_arc(const FlamePlanes::Box& box, double x_m, double y_m) {
+    const double west = box.west_m - x_m, east = box.east_m - x_m, south = box.south_m - y_m, north = box.north_m - y_m;
+    if (west <= 0.0 && east >= 0.0 && south <= 0.0 && north >= 0.0) return true;
+    // The two corners of the silhouette, counter-clockwise, by the side of the box that the point lies on.
+    const bool left = east<0.0, right = west> 0.0, below = north<0.0, above = south> 0.0;
+    const double first_x = below ? west : above ? east : left ? east : west;
+    const double first_y = left ? north : right ? south : below ? north : south;
+    const double last_x = below ? east : above ? west : left ? east : west;
+    const double last_y = left ? south : right ? north : below ? north : south;
+    const double begin = diamond_angle(first_x, first_y);
+    double end = diamond_angle(last_x, last_y);
+    if (end < begin) end += 4.0;
+    arcs_.push_back({begin, end});
+    return false;
+}
+
+/// Azimuths in which any flame within reach stands. Boxes nearer than their own size are resolved into their parts.
+void ReceiverLight::find_arcs(double x_m, double y_m) {
+    const FlamePlanes& flame = shared_->flame;
+    const double reach2_m2 = shared_->settings.reach_m * shared_->settings.reach_m;
+    arcs_.clear();
+    for (std::size_t b = 0; b < flame.boxes().size(); ++b) {
+        const FlamePlanes::Box& box = flame.boxes()[b];
+        const double gap2_m2 = box.squared_gap_m2(x_m, y_m, 0.0);
+        if (gap2_m2 > reach2_m2) continue;
+        const double size_m = std::max(box.east_m - box.west_m, box.north_m - box.south_m);
+        if (gap2_m2 > size_m * size_m) {
+            add_arc(box, x_m, y_m);
+            continue;
+        }
+        for (std::size_t p = flame.first_part(b); p < flame.first_part(b + 1); ++p) {
+            if (!add_arc(flame.parts()[p], x_m, y_m)) continue;
+            arcs_.assign(1, {0.0, 4.0});
             return;
         }
-        const double middle = diamond_angle(0.5 * (west + east), 0.5 * (south + north));
-        double below = 0.0, above = 0.0;
-        const auto extend = [&](double dx, double dy) {
-            double off = diamond_angle(dx, dy) - middle;
-            off = off > 2.0 ? off - 4.0 : off < -2.0 ? off + 4.0 : off;
-            below = std::min(below, off);
-            above = std::max(above, off);
-        };
-        extend(west, south), extend(west, north), extend(east, south), extend(east, north);
-        const int first = static_cast<int>(std::floor((middle + below) * kBinsPerUnit));
-        const int last = static_cast<int>(std::floor((middle + above) * kBinsPerUnit));
-        for (int b = first; b <= last; ++b) azimuth_marked_[static_cast<std::size_t>((b + kAzimuthBins) % kAzimuthBins)] = 1;
     }
+    merge_arcs();
+}
+
+/// Sorts the arcs and joins those that overlap, also around the zero of the circle.
+void ReceiverLight::merge_arcs() {
+    if (arcs_.empty()) return;
+    std::sort(arcs_.begin(), arcs_.end(), [](Arc a, Arc b) { return a.begin < b.begin; });
+    std::size_t count = 1;
+    for (std::size_t i = 1; i < arcs_.size(); ++i) {
+        Arc& last = arcs_[count - 1];
+        if (arcs_[i].begin <= last.end)
+            last.end = std::max(last.end, arcs_[i].end);
+        else
+            arcs_[count++] = arcs_[i];
+    }
+    // Arcs that run over the zero swallow the first ones.
+    std::size_t first = 0;
+    while (first + 1 < count && arcs_[count - 1].end - 4.0 >= arcs_[first].begin) {
+        arcs_[count - 1].end = std::max(arcs_[count - 1].end, arcs_[first].end + 4.0);
+        ++first;
+    }
+    arcs_.resize(count);
+    arcs_.erase(arcs_.begin(), arcs_.begin() + static_cast<std::ptrdiff_t>(first));
+    if (arcs_.back().end - arcs_.back().begin >= 4.0) arcs_.assign(1, {0.0, 4.0});
 }
 
 void ReceiverLight::compute(const Receiver& receiver) {
     std::fill(emitted_.begin(), emitted_.end(), 0.0F);
-    mark_azimuths(receiver);
-    const double finest = 2.0 * kPi / shared_->settings.directions;
-    int index = 0;
-    const auto trace_arc = [&](int first_bin, int end_bin, int least_planes) {
-        const double begin = azimuth_of_diamond(first_bin * 4.0 / kAzimuthBins),
-                     end = azimuth_of_diamond(end_bin * 4.0 / kAzimuthBins);
-        const int planes = std::max(least_planes, static_cast<int>(std::ceil((end - begin) / finest - 1e-9)));
-        const double width = (end - begin) / planes;
-        for (int p = 0; p < planes; ++p) trace_plane(receiver, begin + (p + 0.5) * width, width, index++);
-    };
-    const auto marked = [&](int bin) { return azimuth_marked_[static_cast<std::size_t>(bin % kAzimuthBins)] != 0; };
-    int start = 0;
-    while (start < kAzimuthBins && marked(start)) ++start;
-    if (start == kAzimuthBins) {
-        trace_arc(0, kAzimuthBins, kLeastPlanes);
+    if (!is_near_flame(receiver)) {
+        compute_point(receiver.x_m, receiver.y_m, receiver, shared_->settings.directions, 1.0);
         return;
     }
-    for (int bin = start; bin < start + kAzimuthBins;) {  // begins in a gap: no arc is cut at bin 0
-        if (!marked(bin)) {
-            ++bin;
-            continue;
-        }
-        int end = bin;
-        while (marked(end)) ++end;
-        trace_arc(bin, end, kLeastPlanes);
-        bin = end;
+    const double cell_m = shared_->scene.terrain->grid().cell_m;
+    for (int p = 0; p < kPointsNearFlame; ++p) {
+        // Additive recurrence with the plastic number (Roberts 2018): even over the cell.
+        const double u = 0.5 + 0.7548776662466927 * p, v = 0.5 + 0.5698402909980532 * p;
+        compute_point(receiver.x_m + (u - std::floor(u) - 0.5) * cell_m, receiver.y_m + (v - std::floor(v) - 0.5) * cell_m,
+                      receiver, std::max(4, shared_->settings.directions / kPlanesNearFlame), 1.0 / kPointsNearFlame);
     }
 }
 
-void ReceiverLight::trace_plane(const Receiver& receiver, double azimuth, double width, int index) {
-    const TerrainMesh& terrain = *shared_->scene.terrain;
-    const double dx = std::cos(azimuth), dy = std::sin(azimuth), cell_m = terrain.grid().cell_m;
-    // Additive recurrence with the plastic number (Roberts 2018): even over the cell for any number of planes.
-    const double u = 0.5 + 0.7548776662466927 * index, v = 0.5 + 0.5698402909980532 * index;
-    const double x_m = receiver.x_m + (u - std::floor(u) - 0.5) * cell_m,
-                 y_m = receiver.y_m + (v - std::floor(v) - 0.5) * cell_m;
+void ReceiverLight::compute_point(double x_m, double y_m, const Receiver& receiver, int planes_around, double weight) {
+    find_arcs(x_m, y_m);
+    const Vec3 from{x_m, y_m, shared_->scene.terrain->height_at(x_m, y_m)};
+    for (const Arc arc : arcs_) {
+        const double begin = azimuth_of_diamond(arc.begin), end = azimuth_of_diamond(arc.end);
+        const int planes =
+            std::max(kLeastPlanes, static_cast<int>(std::ceil((end - begin) / (2.0 * kPi) * planes_around - 1e-9)));
+        const double width = (end - begin) / planes;
+        for (int p = 0; p < planes; ++p) trace_plane(from, receiver, begin + (p + 0.5) * width, weight * width);
+    }
+}
+
+void ReceiverLight::trace_plane(Vec3 from_m, const Receiver& receiver, double azimuth, double weight) {
+    const double dx = std::cos(azimuth), dy = std::sin(azimuth);
     columns_.clear();
-    shared_->flame.cross(x_m, y_m, dx, dy, shared_->settings.reach_m, columns_);
+    shared_->flame.cross(from_m.x, from_m.y, dx, dy, shared_->settings.reach_m, columns_);
     if (columns_.empty()) return;
-    const double z_m = terrain.height_at(x_m, y_m);
-    if (shared_->rough) find_horizons(x_m, y_m, z_m, dx, dy);
+    if (shared_->rough) find_horizons(from_m, dx, dy);
 
     const PlaneWeight plane{receiver.normal.x * dx + receiver.normal.y * dy, receiver.normal.z};
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const PlaneColumn& c : columns_) {
-        const double bottom_m = shared_->flame.bottom_m() + c.k_begin * shared_->flame.dz_m() - z_m;
-        const double top_m = shared_->flame.bottom_m() + c.k_end * shared_->flame.dz_m() - z_m;
+        const double bottom_m = shared_->flame.bottom_m() + c.k_begin * shared_->flame.dz_m() - from_m.z;
+        const double top_m = shared_->flame.bottom_m() + c.k_end * shared_->flame.dz_m() - from_m.z;
         const auto slope = [](double height_m, double run_m) {
             return run_m > 0.0F ? height_m / run_m : std::copysign(std::numeric_limits<double>::infinity(), height_m);
         };
@@ -172,20 +212,20 @@ void ReceiverLight::trace_plane(const Receiver& receiver, double azimuth, double
     for (int s = 0; s < strata; ++s) {
         const double v_top = v_low + (v_high - v_low) * (s + 1) / strata;
         const double up_to = plane.below(s + 1 == strata ? high : slope_of_measure(v_top));
-        trace_stratum(z_m, slope_of_measure(v_top - 0.5 * (v_high - v_low) / strata), width * (up_to - below));
+        trace_stratum(from_m.z, slope_of_measure(v_top - 0.5 * (v_high - v_low) / strata), weight * (up_to - below));
         below = up_to;
     }
 }
 
 /// Notes for each column how steep a line of sight must be to pass the terrain in front of it.
-void ReceiverLight::find_horizons(double x_m, double y_m, double z_m, double dx, double dy) {
+void ReceiverLight::find_horizons(Vec3 from_m, double dx, double dy) {
     const TerrainMesh& terrain = *shared_->scene.terrain;
     const double step_m = terrain.grid().cell_m;
     double slope = -std::numeric_limits<double>::infinity(), r = step_m;
     for (PlaneColumn& column : columns_) {
         for (; r < column.enter_m; r += step_m) {
-            const double h = terrain.height_at(x_m + r * dx, y_m + r * dy);
-            if (h > -1e9) slope = std::max(slope, (h - z_m) / r);
+            const double h = terrain.height_at(from_m.x + r * dx, from_m.y + r * dy);
+            if (h > -1e9) slope = std::max(slope, (h - from_m.z) / r);
         }
         column.horizon = static_cast<float>(slope);
     }
@@ -217,12 +257,13 @@ void ReceiverLight::trace_stratum(double z_m, double slope, double weight) {
             const float fill = flame.fill(voxel);
             if (fill > 0.0F && until > r) {
                 const float length_m = fill * (until - r) * stretch;
-                if (flame.planck_position(voxel) != position && depth_m > 0.0F) {
+                const float here = flame.planck_position(voxel);
+                if (depth_m > 0.0F && std::abs(here - position) > kSamePosition) {
                     flush(depth_m, position, w);
                     depth_m = 0.0F;
                 }
-                position = flame.planck_position(voxel);
                 depth_m += length_m;
+                position = depth_m > length_m ? position + (here - position) * length_m / depth_m : here;
                 total_m += length_m;
             }
             r = std::max(r, until);

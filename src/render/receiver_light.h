@@ -42,8 +42,8 @@ struct PlaneWeight {
 
 /// Light of the flames on receivers. The hemisphere is cut into vertical planes that are spent only on azimuths where flame
 /// stands; within a plane the elevations between the lowest and highest flame are cut into strata, each traced once through
-/// its columns; the weight of a stratum is exact. Planes start at different points of the cell, so the result is the mean
-/// over the cell. One per thread.
+/// its columns; the weight of a stratum is exact. Cells next to flame are sampled at several points with fewer planes each,
+/// so that the result is the mean over the cell where it varies within the cell. One per thread.
 class ReceiverLight {
 public:
     explicit ReceiverLight(const LightScene& shared);
@@ -59,15 +59,24 @@ public:
     double hidden_by_terrain(const Receiver& receiver, int planes, Visit&& visit) const;
 
 private:
-    void mark_azimuths(const Receiver& receiver);
-    void trace_plane(const Receiver& receiver, double azimuth, double width, int index);
-    void find_horizons(double x_m, double y_m, double z_m, double dx, double dy);
+    /// Part of the circle of azimuths, in diamond angle (0 to 4 and beyond), that flames stand in.
+    struct Arc {
+        double begin, end;
+    };
+
+    [[nodiscard]] bool is_near_flame(const Receiver& receiver) const;
+    void compute_point(double x_m, double y_m, const Receiver& receiver, int planes_around, double weight);
+    void find_arcs(double x_m, double y_m);
+    bool add_arc(const FlamePlanes::Box& box, double x_m, double y_m);
+    void merge_arcs();
+    void trace_plane(Vec3 from_m, const Receiver& receiver, double azimuth, double weight);
+    void find_horizons(Vec3 from_m, double dx, double dy);
     void trace_stratum(double z_m, double slope, double weight);
     void flush(float depth_m, float planck_position, float weight);
 
     const LightScene* shared_;
     const SpectralKernels* kernels_;
-    std::vector<char> azimuth_marked_;
+    std::vector<Arc> arcs_;
     std::vector<PlaneColumn> columns_;
     std::vector<float> tau_, emitted_;
 };

@@ -1,0 +1,201 @@
+// Light of flames on the ground against closed forms: view factors, the inverse square, energy, shadows, the furnace.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "physics/test_scene.h"
+#include "radiometry/planck.h"
+
+namespace pyroscene::test {
+namespace {
+
+using radiometry::planck_radiance;
+
+float irradiance_at(const render::GroundIrradiance& light, int row, int col) {
+    const auto r = light.row_of_cell[light.grid.index(row, col)];
+    return r < 0 ? 0.0F : light.irradiance_W_m2_um[static_cast<std::size_t>(r) * static_cast<std::size_t>(light.stride)];
+}
+
+/// View factor from a point on flat ground to a wall of height h and half width w that stands at distance d and faces it:
+///   F = [atan(w/d) - d / sqrt(d^2 + h^2) atan(w / sqrt(d^2 + h^2))] / pi      (both halves; Howell, configuration B-4)
+double wall_view_factor(double d, double h, double w) {
+    const double slant = std::hypot(d, h);
+    return (std::atan(w / d) - d / slant * std::atan(w / slant)) / kPi;
+}
+
+TEST(GroundLight, WallOfFlameHasItsViewFactor) {
+    // An opaque wall along the eastern side, 20 m high, 400 m long, in front of columns of receiver cells of 5 m.
+    for (const double voxel_m : {20.0, 4.0, 1.0}) {
+        TestScene scene({.cols = 40, .rows = 80, .cell_m = 5.0, .ground_K = 300.0, .absorption_per_m = 100.0});
+        const int nx = std::max(1, static_cast<int>(std::lround(4.0 / voxel_m)));
+        const int ny = static_cast<int>(std::lround(400.0 / voxel_m)), nz = static_cast<int>(std::lround(20.0 / voxel_m));
+        scene.set_flame(
+            {.corner_m = {150.0, 0.0, 0.0}, .nx = nx, .ny = ny, .dx_m = voxel_m, .dy_m = voxel_m, .dz_m = voxel_m},
+            box_of_voxels(nx, ny, nz, 1000.0));
+        const auto light = render::ground_irradiance(scene.scene(), {});
+        const double emitted = kPi * planck_radiance(4.0, 1000.0);
+        for (const int col : {0, 10, 20, 26, 28}) {
+            const double distance_m = 150.0 - (col + 0.5) * 5.0;
+            EXPECT_NEAR(irradiance_at(light, 40, col) / (emitted * wall_view_factor(distance_m, 20.0, 200.0)), 1.0, 0.02)
+                << "at " << distance_m << " m, voxels of " << voxel_m << " m";
+        }
+    }
+}
+
+TEST(GroundLight, SlopesTurnedToTheWallReceiveMore) {
+    // Ground rising 20 degrees towards the south: its normal leans north. A long high wall in the north fills all that
+    // is north of the zenith: F = (1 + cos a) / 2 with a the angle between normal and wall plane seen from above.
+    TestScene scene({.cols = 81, .rows = 21, .cell_m = 5.0, .ground_K = 300.0, .absorption_per_m = 100.0});
+    const double slope = std::tan(20.0 * kDegree_rad);
+    scene.set_heights([&](double, double y) { return 40.0 - slope * y; });
+    scene.set_flame({.corner_m = {-2000.0, 80.0, -100.0}, .nx = 880, .ny = 1, .dx_m = 5.0, .dy_m = 5.0, .dz_m = 50.0},
+                    box_of_voxels(880, 1, 80, 1000.0));
+    const auto light = render::ground_irradiance(scene.scene(), {.directions = 128, .reach_m = 4000.0});
+    // Seen from the slope the wall fills a lune between the horizon of the slope and the zenith: angle 90 + 20 degrees.
+    const double expected = (1.0 - std::cos(110.0 * kDegree_rad)) / 2.0;
+    EXPECT_NEAR(irradiance_at(light, 10, 40) / (kPi * planck_radiance(4.0, 1000.0)), expected, 0.02 * expected);
+}
+
+TEST(GroundLight, FarThinFlameFollowsTheInverseSquare) {
+    // One voxel, optically thin: it radiates k V B into every direction; on the ground E = I cos(theta) / r^2 (errata E7).
+    TestScene scene({.cols = 60, .rows = 60, .cell_m = 5.0, .ground_K = 300.0, .absorption_per_m = 0.01});
+    const std::vector<fire::FlameVoxel> one{{0, 0, 0, 1.0F, 1000.0F}};
+    scene.set_flame({.corner_m = {150.0, 150.0, 20.0}, .nx = 1, .ny = 1, .dx_m = 4.0, .dy_m = 4.0, .dz_m = 4.0}, one);
+    const auto light = render::ground_irradiance(scene.scene(), {});
+    const double intensity = 0.01 * 64.0 * planck_radiance(4.0, 1000.0);
+    for (const int col : {0, 10, 20, 40, 55}) {
+        const Vec3 to_flame = Vec3{152.0, 152.0, 22.0} - Vec3{(col + 0.5) * 5.0, (59 - 33 + 0.5) * 5.0, 0.0};
+        const double r = length(to_flame);
+        EXPECT_NEAR(irradiance_at(light, 33, col) / (intensity * to_flame.z / (r * r * r)), 1.0, 0.06) << col;
+    }
+}
+
+TEST(GroundLight, HalfOfAThinFlamesPowerReachesTheGround) {
+    // Sum over the plane: 4 pi k V B (1 - h / sqrt(h^2 + R^2)) / 2 within radius R of a small flame at height h.
+    for (const double cell_m : {20.0, 7.0}) {
+        const int cells = static_cast<int>(std::lround(420.0 / cell_m));
+        TestScene scene({.cols = cells, .rows = cells, .cell_m = cell_m, .ground_K = 300.0, .absorption_per_m = 0.01});
+        const std::vector<fire::FlameVoxel> one{{0, 0, 0, 1.0F, 1000.0F}};
+        const double middle = 0.5 * cells * cell_m, height_m = 9.0;
+        scene.set_flame({.corner_m = {middle - 1.5, middle - 1.5, height_m - 1.5},
+                         .nx = 1,
+                         .ny = 1,
+                         .dx_m = 3.0,
+                         .dy_m = 3.0,
+                         .dz_m = 3.0},
+                        one);
+        const double reach_m = 180.0;
+        const auto light = render::ground_irradiance(scene.scene(), {.directions = 64, .reach_m = reach_m});
+        double power = 0.0;
+        for (int r = 0; r < cells; ++r) {
+            for (int c = 0; c < cells; ++c) power += irradiance_at(light, r, c) * cell_m * cell_m;
+        }
+        const double emitted = 4.0 * kPi * 0.01 * 27.0 * planck_radiance(4.0, 1000.0);
+        EXPECT_NEAR(power / (emitted * 0.5 * (1.0 - height_m / std::hypot(height_m, reach_m))), 1.0, 0.03) << cell_m;
+    }
+}
+
+TEST(GroundLight, OpaqueFlameOverheadIsAWholeSky) {
+    TestScene scene({.cols = 9, .rows = 9, .cell_m = 10.0, .ground_K = 300.0, .absorption_per_m = 10.0});
+    scene.set_flame({.corner_m = {-2000.0, -2000.0, 1.0}, .nx = 10, .ny = 10, .dx_m = 410.0, .dy_m = 410.0, .dz_m = 4.0},
+                    box_of_voxels(10, 10, 2, 900.0));
+    const auto light = render::ground_irradiance(scene.scene(), {.directions = 64, .reach_m = 1900.0});
+    EXPECT_NEAR(irradiance_at(light, 4, 4) / (kPi * planck_radiance(4.0, 900.0)), 1.0, 1e-4);
+}
+
+TEST(GroundLight, RidgeHidesTheFlameBehindIt) {
+    TestScene scene({.cols = 60, .rows = 9, .cell_m = 10.0, .ground_K = 300.0, .absorption_per_m = 1.0});
+    const fire::VoxelGrid grid{.corner_m = {500.0, 0.0, 0.0}, .nx = 1, .ny = 9, .dx_m = 10.0, .dy_m = 10.0, .dz_m = 2.0};
+    scene.set_flame(grid, box_of_voxels(1, 9, 5, 1100.0));
+    const auto open = render::ground_irradiance(scene.scene(), {});
+    EXPECT_GT(irradiance_at(open, 4, 20), 0.5F);
+    scene.set_heights([](double x, double) { return std::abs(x - 400.0) < 11.0 ? 30.0 : 0.0; });
+    const auto hidden = render::ground_irradiance(scene.scene(), {});
+    EXPECT_EQ(irradiance_at(hidden, 4, 20), 0.0F);  // far behind the ridge
+    EXPECT_GT(irradiance_at(hidden, 4, 45), 1.0F);  // between ridge and flame
+}
+
+TEST(GroundLight, ReachBoundsTheReceivers) {
+    TestScene scene({.cols = 60, .rows = 9, .cell_m = 10.0, .ground_K = 300.0, .absorption_per_m = 1.0});
+    scene.set_flame({.corner_m = {500.0, 0.0, 0.0}, .nx = 1, .ny = 9, .dx_m = 10.0, .dy_m = 10.0, .dz_m = 2.0},
+                    box_of_voxels(1, 9, 5, 1100.0));
+    const auto light = render::ground_irradiance(scene.scene(), {.directions = 64, .reach_m = 100.0});
+    EXPECT_EQ(light.row_of_cell[light.grid.index(4, 38)], -1);
+    EXPECT_GE(light.row_of_cell[light.grid.index(4, 42)], 0);
+    scene.flame = {};
+    const auto none = render::ground_irradiance(scene.scene(), {});
+    EXPECT_TRUE(none.irradiance_W_m2_um.empty());
+    EXPECT_EQ(none.row_of_cell.size(), 540U);
+}
+
+TEST(GroundLight, ColouredFlameMatchesGreyFlamesOneByOne) {
+    // Traced at a few absorption nodes and interpolated: each wavelength must agree with a grey flame of its own k.
+    const std::vector<double> lambda_um{0.9, 1.3, 2.0, 4.0, 10.0};
+    const std::vector<float> k{1.3F, 0.8F, 0.5F, 0.2F, 0.03F};
+    const auto make = [&](double absorption) {
+        TestScene scene({.cols = 12,
+                         .rows = 12,
+                         .cell_m = 10.0,
+                         .ground_K = 300.0,
+                         .lambda_um = lambda_um,
+                         .absorption_per_m = absorption});
+        std::vector<fire::FlameVoxel> voxels;
+        for (int j = 0; j < 12; ++j) {
+            for (int n = 0; n < 8; ++n) voxels.push_back({11 + n / 3, j, n, 0.8F, static_cast<float>(1150 - 35 * n)});
+        }
+        scene.set_flame({.corner_m = {}, .nx = 24, .ny = 12, .dx_m = 5.0, .dy_m = 10.0, .dz_m = 1.5}, voxels);
+        return scene;
+    };
+    TestScene coloured = make(0.1);
+    coloured.set_absorption(k);
+    const auto all = render::ground_irradiance(coloured.scene(), {});
+    for (std::size_t l = 0; l < lambda_um.size(); ++l) {
+        const auto single = render::ground_irradiance(make(k[l]).scene(), {});
+        for (std::size_t row = 0; row < 144; ++row) {
+            const double expected = single.irradiance_W_m2_um[row * static_cast<std::size_t>(single.stride) + l];
+            EXPECT_NEAR(all.irradiance_W_m2_um[row * static_cast<std::size_t>(all.stride) + l], expected,
+                        3e-3 * expected + 1e-6);
+        }
+    }
+}
+
+TEST(GroundLight, SkyIsDimmedByTheFlameInFrontOfIt) {
+    // Transmittance of a thin flame over the whole sky seen from its middle: 1 - E_flame / (pi B), whatever the geometry.
+    TestScene scene({.cols = 8, .rows = 8, .cell_m = 20.0, .ground_K = 300.0, .absorption_per_m = 0.02});
+    scene.set_sky(280.0);
+    scene.atmosphere.diffuse_irradiance_W_m2_um = {0.5F};
+    scene.set_flame({.corner_m = {}, .nx = 16, .ny = 16, .dx_m = 10.0, .dy_m = 10.0, .dz_m = 5.0},
+                    box_of_voxels(16, 16, 4, 1100.0));
+    const auto light = render::ground_irradiance(scene.scene(), {});
+    const double through = 1.0 - irradiance_at(light, 4, 4) / (kPi * planck_radiance(4.0, 1100.0));
+    EXPECT_GT(through, 0.2);
+    EXPECT_LT(through, 0.8);
+    const auto row =
+        static_cast<std::size_t>(light.row_of_cell[light.grid.index(4, 4)]) * static_cast<std::size_t>(light.stride);
+    EXPECT_NEAR(light.sky_irradiance_W_m2_um[row] / (0.5 * through), 1.0, 3e-3);
+    EXPECT_NEAR(light.thermal_irradiance_W_m2_um[row] / (kPi * planck_radiance(4.0, 280.0) * through), 1.0, 3e-3);
+}
+
+TEST(GroundLight, BurningSlopesLightEachOther) {
+    // A V-shaped valley whose eastern slope burns: the western one receives light that is no flame's.
+    TestScene scene({.cols = 20, .rows = 9, .cell_m = 10.0, .ground_K = 300.0, .absorption_per_m = 0.3});
+    scene.set_heights([](double x, double) { return std::abs(x - 100.0); });
+    for (int r = 0; r < 9; ++r) {
+        for (int c = 12; c < 20; ++c) scene.surface.front_fraction[scene.surface.grid.index(r, c)] = 1.0F;
+    }
+    const std::vector<fire::FlameVoxel> spark{{0, 0, 0, 0.001F, 1000.0F}};
+    scene.set_flame({.corner_m = {100.0, 40.0, 30.0}, .nx = 1, .ny = 1, .dx_m = 2.0, .dy_m = 2.0, .dz_m = 2.0}, spark);
+    const auto light = render::ground_irradiance(scene.scene(), {});
+    const auto at = [&](int col) {
+        return light.thermal_irradiance_W_m2_um[static_cast<std::size_t>(light.row_of_cell[light.grid.index(4, col)]) *
+                                                static_cast<std::size_t>(light.stride)];
+    };
+    EXPECT_GT(at(5), 0.05 * kPi * planck_radiance(4.0, 1073.15));
+    EXPECT_LT(at(5), 0.5 * kPi * planck_radiance(4.0, 1073.15));
+    EXPECT_LT(at(15), 1e-2F * at(5));  // the burning slope faces cold ground
+}
+
+}  // namespace
+}  // namespace pyroscene::test
