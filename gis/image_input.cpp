@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -57,7 +58,7 @@ void read_pixels(GDALRasterBand& band, double* out, int cols, int rows, const st
 
 }  // namespace
 
-ImageFile read_image(const std::filesystem::path& path) {
+ImageFile read_image(const std::filesystem::path& path, int most_bands) {
     const DatasetPtr dataset = open_raster(path);
     const GdalErrors errors;
     ImageFile image;
@@ -65,7 +66,7 @@ ImageFile read_image(const std::filesystem::path& path) {
     image.rows = dataset->GetRasterYSize();
     image.metadata = default_metadata(*dataset);
     const std::size_t band_size = static_cast<std::size_t>(image.cols) * static_cast<std::size_t>(image.rows);
-    const int count = dataset->GetRasterCount();
+    const int count = std::min(most_bands, dataset->GetRasterCount());
     image.pixels.resize(band_size * static_cast<std::size_t>(count));
     for (int b = 1; b <= count; ++b) {
         GDALRasterBand& band = *dataset->GetRasterBand(b);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -60,7 +61,8 @@ struct ImageFile {
     std::map<std::string, std::string> metadata;
     std::vector<double> pixels;  ///< [band][row][col], nodata -> NaN
 };
-ImageFile read_image(const std::filesystem::path& path);
+/// \param most_bands  only that many from the first on
+ImageFile read_image(const std::filesystem::path& path, int most_bands = std::numeric_limits<int>::max());
 /// Only the default-domain metadata; nullopt when the file cannot be opened.
 std::optional<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& path);
 

@@ -32,7 +32,7 @@ extern "C" void on_interrupt(int) {
 
 struct Arguments {
     std::string scenario, output;
-    std::vector<std::string> acquisitions, calc_words;
+    std::vector<std::string> acquisitions, calc_name;
     std::string sensor;
     int threads = 0;
     bool force = false, quiet = false, json = false, print_schema = false;
@@ -101,8 +101,19 @@ int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line)
     else if (app.got_subcommand("sensors")) {
         if (a.sensor.empty()) cli::list_sensors(a.json);
         else cli::show_sensor(a.sensor, a.json);
-    } else if (app.got_subcommand("calc")) cli::run_calc(app.get_subcommand("calc")->remaining());
+    } else if (app.got_subcommand("calc")) cli::run_calc(a.calc_name);
     return kDone;
+}
+
+/// The words after `calc`. Its options are those of the formula, so they are not the parser's business (but --help is).
+std::vector<std::string> calc_words(int argc, char** argv) {
+    int i = 1;
+    while (i < argc && std::string_view(argv[i]).starts_with("-")) ++i;
+    if (i >= argc || std::string_view(argv[i]) != "calc") return {};
+    std::vector<std::string> words(argv + i + 1, argv + argc);
+    for (const auto& word : words)
+        if (word == "--help" || word == "-h") return {};
+    return words;
 }
 
 }  // namespace
@@ -132,7 +143,7 @@ int main(int argc, char** argv) {
     sensor->add_flag("--json", a.json, "machine-readable output");
     sensor->footer("Example: pyroscene sensors wasp");
     auto* calc = app.add_subcommand("calc", "one formula or table look-up; with --csv, every row of a table");
-    calc->prefix_command();
+    calc->add_option("NAME", a.calc_name, "what to compute, and its options");
     calc->footer("pyroscene calc NAME [--option value ...] | --csv IN.csv [-o OUT.csv]\n" + cli::calc_help() +
                  "Example: pyroscene calc planck --wavelength_um 4 --temperature_K 1100");
 
@@ -141,6 +152,10 @@ int main(int argc, char** argv) {
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
     try {
+        if (const auto words = calc_words(argc, argv); !words.empty()) {
+            cli::run_calc(words);
+            return kDone;
+        }
         app.parse(argc, argv);
         spdlog::set_level(a.quiet ? spdlog::level::warn : a.verbose > 0 ? spdlog::level::debug : spdlog::level::info);
         return dispatch(app, a, command_line);

@@ -74,7 +74,7 @@ Rendered read_rendered(const ProductJob& job) {
     Rendered r;
     r.radiance = gis::read_image(job.files.radiance());
     r.geolocation = gis::read_image(job.files.geolocation());
-    if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth());
+    if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth(), kExitance + 1);
     r.samples = r.radiance.cols;
     r.lines = r.radiance.rows;
     r.n = static_cast<std::size_t>(r.samples) * static_cast<std::size_t>(r.lines);
@@ -284,8 +284,11 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
         if (options.cancelled != nullptr && options.cancelled->load()) throw Cancelled();
         if (options.on_progress) options.on_progress(step, fraction);
     };
+    std::optional<PhaseTimer> timer;
     stage(0.0);
+    timer.emplace(report, "products/read");
     const auto r = read_rendered(job);
+    timer.emplace(report, "products/sensor_geometry");
     std::vector<Product> made;
     made.push_back(brightness_product(job, r));
     if (!wanted.brightness_temperature) made.back().stem.clear();
@@ -294,12 +297,14 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
     for (const auto& product : made)
         if (!product.stem.empty()) write_sensor_geometry(job, r, product);
     stage(0.3);
+    timer.emplace(report, "products/vectors");
     if (wanted.frp && r.truth) {
         write_fire_pixels(job, r, made.back());
         write_perimeter(job, options.output);
     }
     MapGrid grid = job.inputs.grid;
     if (wanted.ortho) {
+        timer.emplace(report, "products/ortho");
         grid = analysis::ortho_grid(job.inputs.grid, ortho_cell_m(r.gsd_m), r.x_m, r.y_m);
         const auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight));
         stage(0.4);
@@ -310,6 +315,7 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
         }
     }
     stage(0.9);
+    timer.emplace(report, "products/quicklook");
     if (wanted.quicklook) write_picture(job, r, made.front());
     write_stac_item(job, stac_image(job, r, grid));
     report.count("products/" + job.acquisition.id, 1);

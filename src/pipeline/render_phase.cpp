@@ -140,6 +140,7 @@ gis::OutputRaster sensor_raster(const GroupJob& job, const std::vector<gis::Grou
 void write_geolocation(const GroupJob& job, const std::vector<double>& planes) {
     auto out = sensor_raster(job, {});
     out.geolocation.reset();
+    out.compression = gis::Compression::Zstd;
     for (const auto& [name, unit] : kGeolocationBands) out.bands.push_back({name, unit, {}, {}, {}});
     gis::write_geotiff(job.files.geolocation(), out, std::span<const double>(planes));
 }
@@ -178,6 +179,7 @@ void write_radiance(const GroupJob& job, const Measured& measured, const std::ve
 
 void write_truth(const GroupJob& job, const RadianceImage& image, const std::vector<std::uint8_t>& saturated) {
     auto out = sensor_raster(job, {});
+    out.compression = gis::Compression::Zstd;  // the largest file; read by this program and by GDAL, hardly by others
     const std::size_t n = image.coverage.size();
     std::vector<float> pixels;
     pixels.reserve(n * (10 + job.bands.size() * (2 + render::kTermCount)));

@@ -42,6 +42,40 @@ std::vector<FrameSource> frame_bands(const RasterSource& source) {
     return frames;
 }
 
+struct WindPair {
+    std::filesystem::path file;
+    int u_band = 1, v_band = 2;
+    double time_s = std::nan("");
+};
+
+/// The u, v bands that hold for a frame: the only pair; else by time, the last one at or before the frame (times_s or the u band's
+/// time_s); else, without times, one pair per frame.
+WindPair wind_pair(const RasterSource& source, std::size_t frame_count, std::size_t frame, double frame_time_s) {
+    const auto bands = frame_bands(source);
+    if (bands.size() % 2 != 0)
+        throw input_error(source.files.front().string(),
+                          fmt::format("wind needs pairs of bands (u, v); found {} band(s)", bands.size()));
+    std::vector<WindPair> pairs;
+    for (std::size_t i = 0; i < bands.size(); i += 2) pairs.push_back({bands[i].file, bands[i].band, bands[i + 1].band, bands[i].time_s});
+    if (!source.times_s.empty()) {
+        if (source.times_s.size() != pairs.size())
+            throw input_error("inputs.wind.times_s", fmt::format("{} times for {} pairs of bands", source.times_s.size(), pairs.size()));
+        for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].time_s = source.times_s[i];
+    }
+    if (pairs.size() == 1) return pairs.front();
+    const bool timed = std::none_of(pairs.begin(), pairs.end(), [](const WindPair& p) { return std::isnan(p.time_s); });
+    if (!timed) {
+        if (pairs.size() == frame_count) return pairs[frame];
+        throw input_error(source.files.front().string(),
+                          fmt::format("{} pairs of wind bands without time_s for {} frames; set inputs.wind.bands: [u, v] or "
+                                      "inputs.wind.times_s",
+                                      pairs.size(), frame_count));
+    }
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < pairs.size() && pairs[i].time_s <= frame_time_s; ++i) found = i;
+    return pairs[found];
+}
+
 Raster<std::uint8_t> cover_materials(const Scenario& scenario, const MapGrid& grid, std::vector<std::string>& names) {
     names = {scenario.surface.unburned};
     Raster<std::uint8_t> cover(grid, "cover", "1", std::uint8_t{0});
@@ -127,20 +161,8 @@ fire::FrameInputs load_frame(const Scenario& scenario, const SceneInputs& inputs
     out.arrival_time_s = inputs.arrival_time_s;
     const auto& wind = scenario.inputs.wind;
     if (wind && wind->raster) {
-        // {u, v} once, or a pair of bands per frame.
-        const auto& raster = *wind->raster;
-        const auto info = gis::read_info(raster.files.front());
-        const std::size_t pairs = info.bands.size() / 2;
-        int u = 1, v = 2;
-        if (raster.bands.size() >= 2) {
-            const bool series = raster.bands.size() >= 2 * inputs.frames.size();
-            u = raster.bands[series ? 2 * frame : 0];
-            v = raster.bands[series ? 2 * frame + 1 : 1];
-        } else if (pairs == inputs.frames.size()) {
-            u = static_cast<int>(2 * frame + 1);
-            v = static_cast<int>(2 * frame + 2);
-        }
-        auto field = gis::read_wind(raster.files.front(), u, v, inputs.grid);
+        const auto pair = wind_pair(*wind->raster, inputs.frames.size(), frame, source.time_s);
+        auto field = gis::read_wind(pair.file, pair.u_band, pair.v_band, inputs.grid);
         out.wind_east_m_s = std::move(field.east_m_s);
         out.wind_north_m_s = std::move(field.north_m_s);
         return out;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "gis/crs.h"
 #include "gis/geodesy.h"
 #include "gis/raster_input.h"
 #include "system/support.h"
@@ -43,7 +44,7 @@ MapGrid write_scene(const ScratchFolder& folder, const Place& place) {
     grid.cell_m = kCell_m;
     grid.west_m = std::round(centre[0] / kCell_m) * kCell_m - 1500.0;
     grid.north_m = std::round(centre[1] / kCell_m) * kCell_m + 1500.0;
-    grid.crs_wkt = place.crs;
+    grid.crs_wkt = gis::parse_map_crs(place.crs, place.name).wkt;
     const double x0 = grid.west_m, y0 = grid.south_m();
     write_band(folder / "dem.tif", grid, "m", [&](double x, double y) { return height_m(x - x0, y - y0); });
     write_band(folder / "flux.tif", grid, "W m-2", [](double, double) { return 0.0; }, {{"time_s", "0"}});
@@ -85,7 +86,7 @@ products: [radiance, truth, ortho]
     return grid;
 }
 
-/// Shift (in pixels) of an ortho image against the paint: the least-squares optimum on a 0.025-pixel lattice.
+/// Shift (in pixels) of an ortho image against the paint along each axis: the least-squares optimum in steps of 0.025 pixel.
 std::array<double, 2> shift_against_paint(const std::vector<double>& image, const MapGrid& ortho, double x0, double y0) {
     double low = 1e300, high = -1e300;
     for (const double v : image)
@@ -97,21 +98,24 @@ std::array<double, 2> shift_against_paint(const std::vector<double>& image, cons
             for (int j = -1; j <= 1; ++j) share += painted(x - x0 + i * ortho.cell_m / 3.0, y - y0 + j * ortho.cell_m / 3.0) ? 1.0 : 0.0;
         return low + (high - low) * share / 9.0;
     };
-    std::array<double, 2> best{};
-    double best_error = 1e300;
-    for (int ix = -20; ix <= 20; ++ix)
-        for (int iy = -20; iy <= 20; ++iy) {
-            const double dx = 0.025 * ix, dy = 0.025 * iy;
-            double error = 0.0;
-            for (int row = 3; row < ortho.rows; row += 5)
-                for (int col = 3; col < ortho.cols; col += 5) {
-                    const double v = image[ortho.index(row, col)];
-                    if (std::isnan(v)) continue;
-                    const double d = v - model(ortho.x_centre_m(col) - dx * ortho.cell_m, ortho.y_centre_m(row) - dy * ortho.cell_m);
-                    error += d * d;
-                }
-            if (error < best_error) best_error = error, best = {dx, dy};
-        }
+    const auto error = [&](double dx_m, double dy_m) {
+        double sum = 0.0;
+        for (int row = 0; row < ortho.rows; ++row)
+            for (int col = 0; col < ortho.cols; ++col) {
+                const double v = image[ortho.index(row, col)];
+                if (std::isnan(v)) continue;
+                const double d = v - model(ortho.x_centre_m(col) - dx_m, ortho.y_centre_m(row) - dy_m);
+                sum += d * d;
+            }
+        return sum;
+    };
+    std::array<double, 2> best{}, least{1e300, 1e300};
+    for (int k = -20; k <= 20; ++k) {
+        const double shift = 0.025 * k, shift_m = shift * ortho.cell_m;
+        const std::array<double, 2> errors{error(shift_m, 0.0), error(0.0, shift_m)};
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            if (errors[axis] < least[axis]) least[axis] = errors[axis], best[axis] = shift;
+    }
     return best;
 }
 
