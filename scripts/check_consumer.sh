@@ -18,4 +18,5 @@ ctest --test-dir "$scratch/consumer" --output-on-failure --no-tests=error
 program=$scratch/prefix/bin/pyroscene
 cd /
 "$program" --version
-"$program" sensors | grep -qw wasp || { echo "check_consumer: the installed program does not list its sensors" >&2; exit 1; }
+listed=$("$program" sensors)
+grep -qw wasp <<<"$listed" || { echo "check_consumer: the installed program does not list its sensors" >&2; exit 1; }
