@@ -45,11 +45,10 @@ std::string thread_count(const OutputRaster& raster) {
     return raster.threads > 0 ? std::to_string(raster.threads) : std::string("ALL_CPUS");
 }
 
+/// Level 1 of either: level 6 of DEFLATE takes 2.3 times as long to save 5 % on radiance with the floating-point predictor.
 void set_compression(Options& options, const OutputRaster& raster, const char* level_key) {
     const bool zstd = raster.compression == Compression::Zstd;
-    options.set("COMPRESS", zstd ? "ZSTD" : "DEFLATE")
-        .set(level_key, zstd ? "1" : "6")
-        .set("NUM_THREADS", thread_count(raster));
+    options.set("COMPRESS", zstd ? "ZSTD" : "DEFLATE").set(level_key, "1").set("NUM_THREADS", thread_count(raster));
 }
 
 void require_size(const OutputRaster& raster, std::size_t pixels, const std::string& subject) {
@@ -168,6 +167,13 @@ void write_tiles(GDALDataset& dataset, const OutputRaster& raster, std::span<con
     }
 }
 
+/// As few equal tiles as cover the edge, none above kTile, in TIFF's multiples of 16: 640 pixels make two tiles of 320, not
+/// one of 512 and a padded one.
+std::string tile_edge(int pixels) {
+    const int tiles = (pixels + kTile - 1) / kTile, edge = (pixels + tiles - 1) / tiles;
+    return std::to_string((edge + 15) / 16 * 16);
+}
+
 template <class T>
 void write_tiled(const std::filesystem::path& path, const OutputRaster& raster, std::span<const T> pixels) {
     initialise_gdal();
@@ -176,7 +182,6 @@ void write_tiled(const std::filesystem::path& path, const OutputRaster& raster, 
     const ThreadOption no_side_files("GDAL_PAM_ENABLED", "NO");
     AtomicFile file(path);
     const GdalErrors errors;
-    const auto tile_edge = [](int size) { return std::to_string(std::min(kTile, (size + 15) / 16 * 16)); };
     Options options;
     options.set("TILED", "YES").set("BLOCKXSIZE", tile_edge(raster.cols)).set("BLOCKYSIZE", tile_edge(raster.rows));
     options.set("INTERLEAVE", "BAND").set("BIGTIFF", "IF_SAFER");

@@ -1,6 +1,9 @@
 #include "gis/raster_output.h"
 
+#include <sys/resource.h>
+
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <limits>
 #include <numeric>
@@ -10,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/random.h"
 #include "unit/gis/written_raster.h"
 
 namespace pyroscene::gis {
@@ -81,8 +85,8 @@ TEST(GeoTiff, IsTiledCompressedAndDescribed) {
     EXPECT_EQ(item(ds.get(), "PREDICTOR", "IMAGE_STRUCTURE"), "3");
     int width = 0, height = 0;
     ds->GetRasterBand(1)->GetBlockSize(&width, &height);
-    EXPECT_EQ(width, 512);
-    EXPECT_EQ(height, 512);
+    EXPECT_EQ(width, 352);  // two across, two down
+    EXPECT_EQ(height, 272);
     EXPECT_EQ(folder.entries(), 1);  // no .aux.xml, no temporary
 }
 
@@ -270,6 +274,46 @@ TEST(Writers, NameTheFileThatFailedAndLeaveNothing) {
     EXPECT_NE(runtime_error_of([&] { write_cog(path, classes_raster(4, 2), half); }).find("0.5 is not a class"),
               std::string::npos);
     EXPECT_EQ(folder.entries(), 1);
+}
+
+/// A disk with room for 100 kB: writes beyond fail with EFBIG.
+class SmallDisk {
+public:
+    SmallDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &before_);
+        rlimit small = before_;
+        small.rlim_cur = 100000;
+        ::setrlimit(RLIMIT_FSIZE, &small);
+    }
+    SmallDisk(const SmallDisk&) = delete;
+    SmallDisk& operator=(const SmallDisk&) = delete;
+    ~SmallDisk() {
+        ::setrlimit(RLIMIT_FSIZE, &before_);
+        (void)std::signal(SIGXFSZ, handler_);
+    }
+
+private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+TEST(Writers, AFullDiskIsAnErrorAndLeavesNothing) {
+    const TempFolder folder;
+    std::vector<float> noise(2 * 700 * 600);
+    for (std::size_t i = 0; i < noise.size(); ++i)
+        noise[i] = static_cast<float>(uniform01({.seed = 1, .stream = 2, .frame = 3}, i));
+    {
+        const SmallDisk disk;
+        EXPECT_NE(runtime_error_of([&] {
+                      write_geotiff(folder / "a.tif", two_bands(700, 600), std::span<const float>(noise));
+                  }).find("a.tif: cannot be written"),
+                  std::string::npos);
+        EXPECT_NE(runtime_error_of([&] {
+                      write_cog(folder / "b.tif", two_bands(700, 600), noise);
+                  }).find("b.tif: cannot be written"),
+                  std::string::npos);
+    }
+    EXPECT_EQ(folder.entries(), 0);
 }
 
 TEST(ReadImage, GivesBackWhatWasWritten) {
