@@ -32,7 +32,7 @@ struct SpectralGrid {
 
 /// Grid for bands given by their responses (Quantity::Response, any positive scale; two points at one wavelength are a
 /// vertical edge, outside the points the response is zero).
-/// Cells are refined until the Planck means from 300 to 2000 K are within 5e-6 of band_mean_radiance; where the mean
+/// Cells are refined until the Planck means from 300 to 2000 K are within 6e-6 of band_mean_radiance; where the mean
 /// is below 1e-3 W m-2 sr-1 um-1 (ambient temperatures in the short-wave infrared) the bound grows with its inverse, to
 /// 5e-4. \param maximum_relative_cell  a cell is at most this fraction of its wavelength wide: resolves the atmosphere's
 /// bands Throws an input error for a response that is empty, negative or zero everywhere.
