@@ -107,8 +107,7 @@ std::vector<std::string> atmosphere_warnings(const AtmosphereSet& set, const Atm
     const auto& c = point.conditions;
     std::vector<std::string> out;
     const auto clamped = [&](const char* name, double value, double used, const char* unit) {
-        out.push_back(
-            fmt::format("{} {:.6g} {} is outside the tables; {:.6g} {} is used", name, value, unit, used, unit));
+        out.push_back(fmt::format("{} {:.6g} {} is outside the tables; {:.6g} {} is used", name, value, unit, used, unit));
     };
     constexpr double kSlack = 1e-9, kElevationSlack_m = 200.0;  // changes tau by 0.03 at most
     if (point.view_zenith_rad > limits.view_zenith_rad + kSlack)
