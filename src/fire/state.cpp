@@ -108,10 +108,12 @@ void label_cells(FireState& state, const FireState* previous, const FrameInputs&
         const float earlier_s = previous != nullptr ? previous->arrival_time_s.values[i] : kNaN;
         const float clock_s = later(previous != nullptr ? previous->last_burning_time_s.values[i] : kNaN, reached_s);
         const bool has_history = !std::isnan(reached_s) || !std::isnan(earlier_s);
+        const bool burns_again =
+            is_front && previous != nullptr && previous->cell_class.values[i] == static_cast<std::uint8_t>(CellClass::Scar);
 
         state.cell_class.values[i] = static_cast<std::uint8_t>(label(is_front, has_history, has_flux));
         state.last_burning_time_s.values[i] = is_front ? now_s : clock_s;
-        const float seen_s = std::isnan(earlier_s) && is_front ? now_s : earlier_s;
+        const float seen_s = (std::isnan(earlier_s) && is_front) || burns_again ? now_s : earlier_s;
         state.arrival_time_s.values[i] = std::isnan(reached_s) ? seen_s : reached_s;
     }
 }
@@ -124,7 +126,7 @@ void set_temperatures(FireState& state, const FireParameters& p) {
                 T_K = p.front_temperature_K;
                 break;
             case CellClass::Scar:
-                T_K = scar_or_ambient_K(p, state.time_s - state.last_burning_time_s.values[i]);
+                T_K = scar_or_ambient_K(p, state.time_s - scar_clock_s(state, p.physics, i));
                 break;
             case CellClass::Unburned:
                 break;
@@ -172,6 +174,10 @@ void set_flames(FireState& state, const FrameInputs& frame, const FireParameters
 }
 
 }  // namespace
+
+float scar_clock_s(const FireState& state, Physics physics, std::size_t cell) noexcept {
+    return physics == Physics::Thesis ? state.last_burning_time_s.values[cell] : state.arrival_time_s.values[cell];
+}
 
 FireState advance(const FireState* previous, const FrameInputs& frame, const FireParameters& parameters) {
     check(parameters);

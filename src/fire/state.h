@@ -69,7 +69,7 @@ struct FireState {
     Raster<std::uint8_t> cell_class;  ///< CellClass
     Raster<float> arrival_time_s;     ///< first time the cell burned (from the arrival raster when given), NaN = not yet
     Raster<float> predicted_arrival_time_s;  ///< the arrival raster as given, later times too; no values when none was given
-    Raster<float> last_burning_time_s;  ///< clock zero of the scar: last time the cell is known to have burned, NaN = never
+    Raster<float> last_burning_time_s;  ///< last time the cell is known to have burned, NaN = never
     Raster<float> surface_temperature_K;  ///< at time_s: front, scar curve or ambient
     Raster<float> front_fraction;         ///< area fraction of the cell that flames, 0 outside the front
     Raster<float> flame_height_m;         ///< eq 4.22 mean over the cell, after the one-sigma rule [m]
@@ -78,6 +78,11 @@ struct FireState {
     Raster<float> flame_azimuth_rad;      ///< direction the flame leans to, clockwise from grid north
     RunningStatistics height_statistics;  ///< of all frames up to and including this one
 };
+
+/// Zero of a scar cell's cooling curve [s]. Default physics: the arrival of the fire, because the part that still flamed later
+/// is front_fraction's business and the rest has cooled since. Thesis physics: the last time it burned, because the whole
+/// cell is held at the front temperature until then.
+float scar_clock_s(const FireState& state, Physics physics, std::size_t cell) noexcept;
 
 /// The next state (thesis 6.2, 4.6). `previous` is null for the first frame.
 ///  - Front: heat flux above the threshold. A front cell that burned before burns again and its scar clock starts anew.

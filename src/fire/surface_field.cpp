@@ -55,25 +55,28 @@ void list_fine_cells(const Context& c, const SurfaceField& out, int row, int col
     }
 }
 
-/// Scar temperature of every fine cell. The clock is the fine cell's own arrival, unless the map cell was seen burning
-/// later. Where the fire reached the middle of the cell but not all of it, the rest is still vegetation.
+/// Scar temperature of every fine cell, by its own arrival or the cell's clock. Where the fire reached the middle of the cell
+/// but not all of it, the rest is still vegetation.
 void fill_scar(const Context& c, SurfaceField& out, std::size_t cell, const std::vector<FineCell>& fine) {
-    const float clock_s = c.state.last_burning_time_s.values[cell];
-    const bool seen_burning = !(clock_s <= c.state.arrival_time_s.values[cell]);
-    const bool partly_reached = c.has_arrival && c.state.predicted_arrival_time_s.values[cell] <= c.time_s && !seen_burning;
+    const float clock_s = scar_clock_s(c.state, c.parameters.physics, cell);
+    const bool partly_reached = c.has_arrival && c.state.predicted_arrival_time_s.values[cell] <= c.time_s;
     for (const FineCell& f : fine) {
         if (partly_reached && !f.reached) continue;
-        const bool own = !std::isnan(f.arrival_s) && f.reached && !(seen_burning && f.arrival_s < clock_s);
+        const bool own = !std::isnan(f.arrival_s) && f.reached;
         out.base_temperature_K[f.index] = scar_K(c, own ? f.arrival_s : clock_s);
         out.burned[f.index] = 1;
     }
 }
 
 /// Sorts the fine cells of a front cell as they flame: reached last ... reached first, next to be reached ... last to be.
-/// Without arrival data the order is random, a patchy front.
+/// Without arrival data, and where the front has passed and only slow fuel burns on, the order is random: patches.
 void sort_by_flaming(const Context& c, std::vector<FineCell>& fine) {
+    const bool passed = std::all_of(fine.begin(), fine.end(), [&](const FineCell& f) {
+        return f.reached && c.time_s - f.arrival_s > c.parameters.scar.time_constant1_s;
+    });
     for (FineCell& f : fine) {
-        f.order = std::isnan(f.arrival_s) ? uniform01(c.patches, f.index) : std::abs(c.time_s - f.arrival_s);
+        const bool strip = !std::isnan(f.arrival_s) && !passed;
+        f.order = strip ? std::abs(c.time_s - f.arrival_s) : uniform01(c.patches, f.index);
     }
     std::sort(fine.begin(), fine.end(), [](const FineCell& a, const FineCell& b) {
         if (a.reached != b.reached) return a.reached;

@@ -22,12 +22,12 @@ struct SurfaceField {
 /// The ground at `time_s`, which may lie after the state: scars have cooled to that very time, cells keep their class.
 ///  - Front: the flaming area of the cell (front_fraction x refinement^2 fine cells) goes to the fine cells that the
 ///    bilinearly interpolated arrival time reached last, then to those it will reach next: a strip. The rest is scar by its
-///    own arrival or still vegetation. Without an arrival time the flaming fine cells are drawn at random (reproducibly); the
-///    rest is vegetation in the first frame of the cell's fire, then scar since its first burning. Physics::Thesis: every
-///    fine cell carries the fraction of the cell.
-///  - Scar: the clock of a fine cell is its own interpolated arrival, or the last frame that showed the cell burning if that
-///    is later. Fine cells that the interpolated arrival has not reached are still vegetation, unless a frame showed the
-///    cell burning after its arrival. Physics::Thesis, and cells without arrival time: the clock of the cell.
+///    own arrival or still vegetation. Without an arrival time, and in cells that the front passed longer ago than the scar's
+///    first time constant, the flaming fine cells are drawn at random (reproducibly). Without one the rest is vegetation in
+///    the first frame of the cell's fire, then scar since its first burning. Physics::Thesis: every fine cell carries the
+///    fraction of the cell.
+///  - Scar: the clock of a fine cell is its own interpolated arrival, else scar_clock_s of the cell. Fine cells that the
+///    interpolated arrival has not reached are still vegetation.
 ///  - Unburned stays so whatever the arrival time says.
 /// \param refinement fine cells per map cell and axis, >= 1
 /// Throws an input error for refinement < 1 or a time before the state's.

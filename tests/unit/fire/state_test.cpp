@@ -70,9 +70,18 @@ TEST(Clocks, WithoutArrivalRasterTheFirstAndLastBurningFramesCount) {
     s = advance(&s, frame(40.0, {0.0F}), kDefaults);
     EXPECT_EQ(s.arrival_time_s.at(0, 0), 20.0F);
     EXPECT_EQ(s.last_burning_time_s.at(0, 0), 30.0F);
-    // 10 s after the clock: eq 4.18 by hand, 578.97 exp(-10/74.88) + 197.50 exp(-10/247.72) + 33.19 degC.
-    EXPECT_NEAR(s.surface_temperature_K.at(0, 0),
-                578.97 * std::exp(-10 / 74.88) + 197.50 * std::exp(-10 / 247.72) + 33.19 + 273.15, 1e-3);
+    // Eq 4.18 by hand, 578.97 exp(-t/74.88) + 197.50 exp(-t/247.72) + 33.19 degC: 20 s after the first burning frame.
+    const auto by_hand_K = [](double t_s) {
+        return 578.97 * std::exp(-t_s / 74.88) + 197.50 * std::exp(-t_s / 247.72) + 33.19 + 273.15;
+    };
+    EXPECT_NEAR(s.surface_temperature_K.at(0, 0), by_hand_K(20.0), 1e-3);
+    // The thesis holds the whole cell at the front temperature while it burns; its clock starts with the last burning frame.
+    FireParameters thesis = kDefaults;
+    thesis.physics = Physics::Thesis;
+    auto t = advance(nullptr, frame(20.0, {2000.0F}), thesis);
+    t = advance(&t, frame(30.0, {3000.0F}), thesis);
+    t = advance(&t, frame(40.0, {0.0F}), thesis);
+    EXPECT_NEAR(t.surface_temperature_K.at(0, 0), by_hand_K(10.0), 1e-3);
 }
 
 TEST(Clocks, ReburnIsFrontAgainAndStartsTheScarAnew) {
@@ -83,7 +92,7 @@ TEST(Clocks, ReburnIsFrontAgainAndStartsTheScarAnew) {
     EXPECT_EQ(class_of(s, 0), CellClass::Front);
     EXPECT_FLOAT_EQ(s.surface_temperature_K.at(0, 0), 1073.15F);
     s = advance(&s, frame(720.0, {0.0F}), kDefaults);
-    EXPECT_EQ(s.arrival_time_s.at(0, 0), 0.0F);
+    EXPECT_EQ(s.arrival_time_s.at(0, 0), 660.0F);
     EXPECT_EQ(s.last_burning_time_s.at(0, 0), 660.0F);
     EXPECT_NEAR(s.surface_temperature_K.at(0, 0) - kZeroCelsius_K, 448.0209, 1e-3);  // 60 s
 }
