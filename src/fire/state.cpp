@@ -55,6 +55,7 @@ void check(const FireState* previous, const FrameInputs& frame) {
     if (frame.arrival_time_s) require_grid(*frame.arrival_time_s, grid, "arrival time");
     if (!std::isfinite(frame.time_s)) throw input_error("frame time", fmt::format("is {}, must be a number", frame.time_s));
     if (previous == nullptr) return;
+    require_grid(previous->cell_class, grid, "previous state");
     for (const auto* raster : {&previous->arrival_time_s, &previous->last_burning_time_s})
         require_grid(*raster, grid, "previous state");
     if (!previous->predicted_arrival_time_s.values.empty())

@@ -60,7 +60,7 @@ struct FrameInputs {
 /// What the fire has done up to one frame: a pure function of the previous state and this frame's inputs. Its size does not
 /// depend on the number of frames.
 ///
-/// To continue from a stored state, advance() needs, to the bit: time_s, arrival_time_s, last_burning_time_s,
+/// To continue from a stored state, advance() needs, to the bit: time_s, cell_class, arrival_time_s, last_burning_time_s,
 /// height_statistics and, when frames come without an arrival raster of their own, predicted_arrival_time_s.
 /// To see a stored state, surface_at() and make_columns() need in addition cell_class, front_fraction, flame_height_m,
 /// ember_height_m, flame_tilt_rad and flame_azimuth_rad. surface_temperature_K is for people: nothing reads it.

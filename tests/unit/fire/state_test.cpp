@@ -146,6 +146,7 @@ TEST(State, ContinuesFromTheStoredFieldsToTheBit) {
         FireState stored;
         stored.time_s = resumed.time_s;
         stored.arrival_time_s = resumed.arrival_time_s;
+        stored.cell_class = resumed.cell_class;
         stored.last_burning_time_s = resumed.last_burning_time_s;
         stored.predicted_arrival_time_s = resumed.predicted_arrival_time_s;
         stored.height_statistics = resumed.height_statistics;

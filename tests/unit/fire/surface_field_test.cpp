@@ -156,11 +156,11 @@ TEST(Scar, VariesInsideACellWithTheInterpolatedArrival) {
     for (int col = 0; col < 4; ++col) EXPECT_NEAR(celsius(field, 3, 4 + col), scar_celsius(300.0 - arrival_s[col]), 1e-3);
 }
 
-TEST(Scar, StartsAtTheLastFrameThatShowedTheCellBurning) {
+TEST(Scar, CoolsFromItsArrivalEvenWhenTheCellWasSeenBurningLater) {
     auto state = moving_east(110.0, 1e5F);
     state = advance(&state, frame(300.0, {0.0F, 0.0F, 0.0F}), kDefaults);
     const auto field = surface_at(state, 300.0, kDefaults, 4);
-    const double clock_s[] = {110.0, 110.0, 112.5, 137.5};
+    const double clock_s[] = {62.5, 87.5, 112.5, 137.5};  // bilinear between cell centres, 100 s apart
     for (int col = 0; col < 4; ++col) EXPECT_NEAR(celsius(field, 0, 4 + col), scar_celsius(300.0 - clock_s[col]), 1e-3);
 }
 
