@@ -13,9 +13,10 @@ namespace pyroscene::gis {
 
 /// How a quantity goes from its own grid to the map grid.
 enum class Resampling {
-    Bilinear,  ///< terrain, temperatures
-    Conserve,  ///< heat flux, fuel load: the integral over area is kept (area-weighted mean)
-    Nearest    ///< classes, arrival time
+    Bilinear,  ///< terrain, temperatures: the surface through pixel centres, averaged over the cell where the file is finer
+    Conserve,  ///< heat flux, fuel load: area-weighted mean that keeps the integral over ground area; nodata and the outside
+               ///< count as zero within a partly covered cell
+    Nearest    ///< classes, arrival time: the pixel that holds the cell's centre
 };
 
 struct BandInfo {
