@@ -14,8 +14,7 @@ enum class ErrorKind { Input, Runtime };
 class Error : public std::runtime_error {
 public:
     Error(ErrorKind kind, std::string_view subject, std::string_view message)
-        : std::runtime_error(subject.empty() ? std::string(message)
-                                             : std::string(subject).append(": ").append(message)),
+        : std::runtime_error(subject.empty() ? std::string(message) : std::string(subject).append(": ").append(message)),
           kind_(kind) {}
 
     [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
@@ -25,9 +24,7 @@ private:
 };
 
 /// Something the user supplied cannot be used (file, line or band; found; expected).
-inline Error input_error(std::string_view subject, std::string_view message) {
-    return {ErrorKind::Input, subject, message};
-}
+inline Error input_error(std::string_view subject, std::string_view message) { return {ErrorKind::Input, subject, message}; }
 /// The run could not go on (disk full, file vanished, library failure).
 inline Error runtime_error(std::string_view subject, std::string_view message) {
     return {ErrorKind::Runtime, subject, message};

@@ -20,9 +20,7 @@ struct MapGrid {
     [[nodiscard]] std::size_t index(int row, int col) const noexcept {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
     }
-    [[nodiscard]] bool contains(int row, int col) const noexcept {
-        return row >= 0 && row < rows && col >= 0 && col < cols;
-    }
+    [[nodiscard]] bool contains(int row, int col) const noexcept { return row >= 0 && row < rows && col >= 0 && col < cols; }
     [[nodiscard]] double east_m() const noexcept { return west_m + cols * cell_m; }
     [[nodiscard]] double south_m() const noexcept { return north_m - rows * cell_m; }
     [[nodiscard]] double x_centre_m(int col) const noexcept { return west_m + (col + 0.5) * cell_m; }

@@ -39,9 +39,12 @@ CommandLine parse(const std::vector<std::string>& words) {
             if (i + 1 >= words.size()) throw std::invalid_argument(fmt::format("--{} needs a value", key));
             value = words[++i];
         }
-        if (key == "csv") line.csv = value;
-        else if (key == "output") line.output = value;
-        else line.values[key] = value;
+        if (key == "csv")
+            line.csv = value;
+        else if (key == "output")
+            line.output = value;
+        else
+            line.values[key] = value;
     }
     return line;
 }
@@ -58,8 +61,10 @@ Arguments complete(const Calculation& calculation, std::map<std::string, std::st
     for (const auto& option : calculation.options) {
         if (const auto it = values.find(option.name); it != values.end() && !it->second.empty()) continue;
         values.erase(option.name);
-        if (option.fallback) values[option.name] = *option.fallback;
-        else if (!option.optional) throw input_error(where, fmt::format("'{}' is missing", option.name));
+        if (option.fallback)
+            values[option.name] = *option.fallback;
+        else if (!option.optional)
+            throw input_error(where, fmt::format("'{}' is missing", option.name));
     }
     return Arguments(std::move(values));
 }
@@ -97,9 +102,11 @@ std::string calc_help() {
     for (const auto& c : calculations()) {
         std::vector<std::string> options;
         for (const auto& o : c.options)
-            options.push_back(o.fallback ? fmt::format("[--{} {}]", o.name, *o.fallback)
-                                         : o.optional ? fmt::format("[--{} ...]", o.name) : fmt::format("--{} ...", o.name));
-        help += fmt::format("  {}: {}\n      {}\n      -> {}\n", c.name, c.help, fmt::join(options, " "), fmt::join(c.results, ", "));
+            options.push_back(o.fallback   ? fmt::format("[--{} {}]", o.name, *o.fallback)
+                              : o.optional ? fmt::format("[--{} ...]", o.name)
+                                           : fmt::format("--{} ...", o.name));
+        help += fmt::format("  {}: {}\n      {}\n      -> {}\n", c.name, c.help, fmt::join(options, " "),
+                            fmt::join(c.results, ", "));
     }
     return help;
 }
@@ -109,10 +116,12 @@ void run_calc(const std::vector<std::string>& words) {
     if (line.name.empty()) throw std::invalid_argument("calc: which one?\n" + calc_help());
     const auto& calculation = find(line.name);
     for (const auto& [key, value] : line.values)
-        if (std::none_of(calculation.options.begin(), calculation.options.end(), [&](const auto& o) { return o.name == key; })) {
+        if (std::none_of(calculation.options.begin(), calculation.options.end(),
+                         [&](const auto& o) { return o.name == key; })) {
             std::vector<std::string> names;
             for (const auto& o : calculation.options) names.push_back("--" + o.name);
-            throw std::invalid_argument(fmt::format("calc {}: no option --{}; there are {}", line.name, key, fmt::join(names, ", ")));
+            throw std::invalid_argument(
+                fmt::format("calc {}: no option --{}; there are {}", line.name, key, fmt::join(names, ", ")));
         }
     std::string text;
     if (!line.csv.empty()) {
@@ -122,8 +131,10 @@ void run_calc(const std::vector<std::string>& words) {
         for (std::size_t i = 0; i < results.size(); ++i)
             text += fmt::format("{} = {}\n", calculation.results[i], number_text(results[i]));
     }
-    if (line.output.empty()) std::cout << text;
-    else write_text_file(line.output, text);
+    if (line.output.empty())
+        std::cout << text;
+    else
+        write_text_file(line.output, text);
 }
 
 }  // namespace pyroscene::cli

@@ -23,7 +23,8 @@ Spectrum response_of(const Arguments& a) {
     if (a.has("lower_um") && a.has("upper_um")) {
         const double lower = a.number("lower_um"), upper = a.number("upper_um");
         if (!(lower > 0.0 && upper > lower))
-            throw input_error("--lower_um, --upper_um", fmt::format("need 0 < lower < upper, found {} and {}", lower, upper));
+            throw input_error("--lower_um, --upper_um",
+                              fmt::format("need 0 < lower < upper, found {} and {}", lower, upper));
         return {Quantity::Response, {lower, upper}, {1.0, 1.0}};
     }
     // Thousands of CSV rows ask for the same few sensors.
@@ -43,13 +44,14 @@ const radiometry::AtmosphereSet& atmosphere_set(const std::string& model, double
     for (const auto& needed : radiometry::needed_files(model, visibility_km, elevation_m)) key += needed.file + ";";
     auto known = cache.find(key);
     if (known == cache.end())
-        known = cache
-                    .emplace(key, radiometry::make_atmosphere_set(
-                                      model, visibility_km, elevation_m,
-                                      [](const std::string& file, const std::string& variable) {
-                                          return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
-                                      }))
-                    .first;
+        known =
+            cache
+                .emplace(key, radiometry::make_atmosphere_set(
+                                  model, visibility_km, elevation_m,
+                                  [](const std::string& file, const std::string& variable) {
+                                      return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
+                                  }))
+                .first;
     return known->second;
 }
 
@@ -64,13 +66,15 @@ std::vector<double> atmosphere(const Arguments& a) {
     point.relative_azimuth_rad = a.number("relative_azimuth_deg") * kDegree_rad;
     const auto& set = atmosphere_set(a.text("model"), conditions.visibility_km, conditions.ground_elevation_m);
     const auto t = radiometry::evaluate_at(set, point, a.number("wavelength_um"));
-    return {t.transmittance[0], t.path_thermal[0], t.path_solar[0], t.direct_normal[0], t.diffuse[0], t.thermal_sky[0], t.spherical_albedo[0]};
+    return {t.transmittance[0], t.path_thermal[0], t.path_solar[0],      t.direct_normal[0],
+            t.diffuse[0],       t.thermal_sky[0],  t.spherical_albedo[0]};
 }
 
 std::vector<double> flame_height(const Arguments& a) {
     if (a.text("method") != "heat_flux")
         throw input_error("--method", fmt::format("'{}' is unknown; there is heat_flux", a.text("method")));
-    return {fire::flame_height_heat_flux_m(a.number("heat_flux_W_m2"), a.number("alpha"), a.number("volumetric_heat_release_W_m3"))};
+    return {fire::flame_height_heat_flux_m(a.number("heat_flux_W_m2"), a.number("alpha"),
+                                           a.number("volumetric_heat_release_W_m3"))};
 }
 
 std::vector<double> flame_tilt(const Arguments& a) {
@@ -95,40 +99,81 @@ std::vector<double> scar_temperature(const Arguments& a) {
 
 const std::vector<Calculation>& calculations() {
     static const std::vector<Calculation> table = {
-        {"planck", "spectral radiance of a blackbody", {{"wavelength_um", {}}, {"temperature_K", {}}}, {"radiance_W_m2_sr_um"},
+        {"planck",
+         "spectral radiance of a blackbody",
+         {{"wavelength_um", {}}, {"temperature_K", {}}},
+         {"radiance_W_m2_sr_um"},
          [](const Arguments& a) {
              return std::vector{radiometry::planck_radiance(a.number("wavelength_um"), a.number("temperature_K"))};
          }},
-        {"brightness-temperature", "temperature of the blackbody with a spectral radiance",
-         {{"wavelength_um", {}}, {"radiance_W_m2_sr_um", {}}}, {"temperature_K"},
+        {"brightness-temperature",
+         "temperature of the blackbody with a spectral radiance",
+         {{"wavelength_um", {}}, {"radiance_W_m2_sr_um", {}}},
+         {"temperature_K"},
          [](const Arguments& a) {
-             return std::vector{radiometry::brightness_temperature(a.number("wavelength_um"), a.number("radiance_W_m2_sr_um"))};
+             return std::vector{
+                 radiometry::brightness_temperature(a.number("wavelength_um"), a.number("radiance_W_m2_sr_um"))};
          }},
-        {"band-radiance", "response-weighted mean radiance of a blackbody in a sensor band or a boxcar",
+        {"band-radiance",
+         "response-weighted mean radiance of a blackbody in a sensor band or a boxcar",
          {{"sensor", {}, true}, {"band", {}, true}, {"lower_um", {}, true}, {"upper_um", {}, true}, {"temperature_K", {}}},
          {"radiance_W_m2_sr_um"},
-         [](const Arguments& a) { return std::vector{radiometry::band_mean_radiance(a.number("temperature_K"), response_of(a))}; }},
-        {"band-temperature", "temperature of the blackbody with a band radiance",
-         {{"sensor", {}, true}, {"band", {}, true}, {"lower_um", {}, true}, {"upper_um", {}, true}, {"radiance_W_m2_sr_um", {}}},
+         [](const Arguments& a) {
+             return std::vector{radiometry::band_mean_radiance(a.number("temperature_K"), response_of(a))};
+         }},
+        {"band-temperature",
+         "temperature of the blackbody with a band radiance",
+         {{"sensor", {}, true},
+          {"band", {}, true},
+          {"lower_um", {}, true},
+          {"upper_um", {}, true},
+          {"radiance_W_m2_sr_um", {}}},
          {"temperature_K"},
          [](const Arguments& a) {
              return std::vector{radiometry::band_brightness_temperature(a.number("radiance_W_m2_sr_um"), response_of(a))};
          }},
-        {"atmosphere", "terms of the atmosphere look-up table; altitude above the ground, ground of emissivity 1 and albedo 0",
-         {{"model", "midlatitude_summer"}, {"visibility_km", "23"}, {"altitude_m", {}}, {"view_zenith_deg", "0"}, {"sun_zenith_deg", "45"},
-          {"relative_azimuth_deg", "90"}, {"wavelength_um", {}}, {"ground_elevation_m", "0"}},
-         {"transmittance", "path_thermal_W_m2_sr_um", "path_solar_W_m2_sr_um", "direct_irradiance_W_m2_um", "diffuse_irradiance_W_m2_um",
-          "thermal_irradiance_W_m2_um", "spherical_albedo"},
+        {"atmosphere",
+         "terms of the atmosphere look-up table; altitude above the ground, ground of emissivity 1 and albedo 0",
+         {{"model", "midlatitude_summer"},
+          {"visibility_km", "23"},
+          {"altitude_m", {}},
+          {"view_zenith_deg", "0"},
+          {"sun_zenith_deg", "45"},
+          {"relative_azimuth_deg", "90"},
+          {"wavelength_um", {}},
+          {"ground_elevation_m", "0"}},
+         {"transmittance", "path_thermal_W_m2_sr_um", "path_solar_W_m2_sr_um", "direct_irradiance_W_m2_um",
+          "diffuse_irradiance_W_m2_um", "thermal_irradiance_W_m2_um", "spherical_albedo"},
          atmosphere},
-        {"flame-height", "flame height from the surface heat flux (thesis eq 4.22)",
-         {{"method", "heat_flux"}, {"heat_flux_W_m2", {}}, {"alpha", "1"}, {"volumetric_heat_release_W_m3", "2e6"},
-          {"cell_area_m2", {}, true}}, {"height_m"}, flame_height},
-        {"flame-tilt", "flame tilt from the vertical by the buoyant velocity (Nelson)",
-         {{"method", "buoyant_velocity"}, {"wind_m_s", {}}, {"fireline_intensity_kW_m", {}}, {"air_density_kg_m3", "1.18"},
-          {"air_heat_capacity_J_kg_K", "1005"}, {"air_temperature_K", "300"}}, {"tilt_deg"}, flame_tilt},
-        {"scar-temperature", "burn scar cooling (thesis eq 4.17, coefficients of eq 4.18)",
-         {{"time_s", {}}, {"amplitude1_K", "578.97"}, {"time_constant1_s", "74.88"}, {"amplitude2_K", "197.5"},
-          {"time_constant2_s", "247.72"}, {"floor_K", "306.34"}}, {"temperature_K"}, scar_temperature},
+        {"flame-height",
+         "flame height from the surface heat flux (thesis eq 4.22)",
+         {{"method", "heat_flux"},
+          {"heat_flux_W_m2", {}},
+          {"alpha", "1"},
+          {"volumetric_heat_release_W_m3", "2e6"},
+          {"cell_area_m2", {}, true}},
+         {"height_m"},
+         flame_height},
+        {"flame-tilt",
+         "flame tilt from the vertical by the buoyant velocity (Nelson)",
+         {{"method", "buoyant_velocity"},
+          {"wind_m_s", {}},
+          {"fireline_intensity_kW_m", {}},
+          {"air_density_kg_m3", "1.18"},
+          {"air_heat_capacity_J_kg_K", "1005"},
+          {"air_temperature_K", "300"}},
+         {"tilt_deg"},
+         flame_tilt},
+        {"scar-temperature",
+         "burn scar cooling (thesis eq 4.17, coefficients of eq 4.18)",
+         {{"time_s", {}},
+          {"amplitude1_K", "578.97"},
+          {"time_constant1_s", "74.88"},
+          {"amplitude2_K", "197.5"},
+          {"time_constant2_s", "247.72"},
+          {"floor_K", "306.34"}},
+         {"temperature_K"},
+         scar_temperature},
     };
     return table;
 }

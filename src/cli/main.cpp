@@ -64,7 +64,8 @@ void run_phase(Phase phase, const Arguments& a, const std::string& command_line)
     for (const auto& [name, value] : report.values()) spdlog::debug("{} = {:.6g}", name, value);
     for (const auto& [name, count] : report.counters()) spdlog::debug("{}: {}", name, count);
     const auto timings = report.timings_s();
-    if (!a.quiet) fmt::print("{}: done in {:.1f} s, products in {}\n", scene.name, timings.at("total"), options.output.string());
+    if (!a.quiet)
+        fmt::print("{}: done in {:.1f} s, products in {}\n", scene.name, timings.at("total"), options.output.string());
 }
 
 int run_check(const Arguments& a) {
@@ -93,15 +94,23 @@ CLI::App* add_phase(CLI::App& app, Arguments& a, const char* name, const char* h
 }
 
 int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line) {
-    if (app.got_subcommand("run")) run_phase(&pipeline::run, a, command_line);
-    else if (app.got_subcommand("prepare")) run_phase(&pipeline::prepare, a, command_line);
-    else if (app.got_subcommand("render")) run_phase(&pipeline::render, a, command_line);
-    else if (app.got_subcommand("products")) run_phase(&pipeline::products, a, command_line);
-    else if (app.got_subcommand("check")) return run_check(a);
+    if (app.got_subcommand("run"))
+        run_phase(&pipeline::run, a, command_line);
+    else if (app.got_subcommand("prepare"))
+        run_phase(&pipeline::prepare, a, command_line);
+    else if (app.got_subcommand("render"))
+        run_phase(&pipeline::render, a, command_line);
+    else if (app.got_subcommand("products"))
+        run_phase(&pipeline::products, a, command_line);
+    else if (app.got_subcommand("check"))
+        return run_check(a);
     else if (app.got_subcommand("sensors")) {
-        if (a.sensor.empty()) cli::list_sensors(a.json);
-        else cli::show_sensor(a.sensor, a.json);
-    } else if (app.got_subcommand("calc")) cli::run_calc(a.calc_name);
+        if (a.sensor.empty())
+            cli::list_sensors(a.json);
+        else
+            cli::show_sensor(a.sensor, a.json);
+    } else if (app.got_subcommand("calc"))
+        cli::run_calc(a.calc_name);
     return kDone;
 }
 

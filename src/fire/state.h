@@ -69,14 +69,14 @@ struct FireState {
     Raster<std::uint8_t> cell_class;  ///< CellClass
     Raster<float> arrival_time_s;     ///< first time the cell burned (from the arrival raster when given), NaN = not yet
     Raster<float> predicted_arrival_time_s;  ///< the arrival raster as given, later times too; no values when none was given
-    Raster<float> last_burning_time_s;  ///< last time the cell is known to have burned, NaN = never
-    Raster<float> surface_temperature_K;  ///< at time_s: front, scar curve or ambient
-    Raster<float> front_fraction;         ///< area fraction of the cell that flames, 0 outside the front
-    Raster<float> flame_height_m;         ///< eq 4.22 mean over the cell, after the one-sigma rule [m]
-    Raster<float> ember_height_m;         ///< part of the height beyond one sigma, detached above the flame
-    Raster<float> flame_tilt_rad;         ///< from the vertical, 0 = upright
-    Raster<float> flame_azimuth_rad;      ///< direction the flame leans to, clockwise from grid north
-    RunningStatistics height_statistics;  ///< of all frames up to and including this one
+    Raster<float> last_burning_time_s;       ///< last time the cell is known to have burned, NaN = never
+    Raster<float> surface_temperature_K;     ///< at time_s: front, scar curve or ambient
+    Raster<float> front_fraction;            ///< area fraction of the cell that flames, 0 outside the front
+    Raster<float> flame_height_m;            ///< eq 4.22 mean over the cell, after the one-sigma rule [m]
+    Raster<float> ember_height_m;            ///< part of the height beyond one sigma, detached above the flame
+    Raster<float> flame_tilt_rad;            ///< from the vertical, 0 = upright
+    Raster<float> flame_azimuth_rad;         ///< direction the flame leans to, clockwise from grid north
+    RunningStatistics height_statistics;     ///< of all frames up to and including this one
 };
 
 /// Zero of a scar cell's cooling curve [s]. Default physics: the arrival of the fire, because the part that still flamed later

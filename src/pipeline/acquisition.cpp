@@ -47,10 +47,10 @@ radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, double groun
     if (source.file)
         return {{radiometry::make_atmosphere_table(
             [&](const std::string& variable) { return gis::read_netcdf_variable(*source.file, variable).values; })}};
-    return radiometry::make_atmosphere_set(source.model, source.visibility_km, ground_elevation_m,
-                                           [](const std::string& file, const std::string& variable) {
-                                               return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
-                                           });
+    return radiometry::make_atmosphere_set(
+        source.model, source.visibility_km, ground_elevation_m, [](const std::string& file, const std::string& variable) {
+            return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
+        });
 }
 
 }  // namespace
@@ -72,13 +72,14 @@ sensors::Pose resolve_pose(const Acquisition& acquisition, const SceneInputs& in
         height_m = *p.altitude_m;
     } else {
         if (!on_map)
-            throw input_error(subject(acquisition), "platform.altitude_agl_m needs terrain below the platform, but it is outside "
-                                                    "the map; give altitude_m (above the ellipsoid)");
+            throw input_error(subject(acquisition),
+                              "platform.altitude_agl_m needs terrain below the platform, but it is outside "
+                              "the map; give altitude_m (above the ellipsoid)");
         height_m = ground_m + *p.altitude_agl_m;
     }
     if (on_map && height_m <= ground_m)
-        throw input_error(subject(acquisition), fmt::format("platform is at {:.0f} m, below the terrain there ({:.0f} m)",
-                                                            height_m, ground_m));
+        throw input_error(subject(acquisition),
+                          fmt::format("platform is at {:.0f} m, below the terrain there ({:.0f} m)", height_m, ground_m));
     pose.position = map.to_geodetic(x, y, height_m);
     return pose;
 }
@@ -124,7 +125,8 @@ FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const
     FireScene scene;
     scene.surface = fire::surface_at(state, time_s, scenario.fire, refinement);
     if (scenario.flame.off) return scene;
-    const auto columns = fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters, in.origin_m);
+    const auto columns =
+        fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters, in.origin_m);
     scene.flame = fire::voxelise(columns, scenario.flame.parameters);
     return scene;
 }

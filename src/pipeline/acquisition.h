@@ -16,10 +16,12 @@ namespace pyroscene::pipeline {
 
 /// Pose of an acquisition's platform, from its place over the map and the terrain (or the fire) below.
 /// Throws an input error: place outside the map, altitude below the terrain.
-sensors::Pose resolve_pose(const scenario::Acquisition& acquisition, const SceneInputs& inputs, const fire::FireState& state);
+sensors::Pose resolve_pose(const scenario::Acquisition& acquisition, const SceneInputs& inputs,
+                           const fire::FireState& state);
 
 /// Bands of one camera group that the acquisition asks for, as positions in Sensor::bands. May be empty.
-std::vector<int> wanted_bands(const scenario::Acquisition& acquisition, const sensors::Sensor& sensor, const std::string& group);
+std::vector<int> wanted_bands(const scenario::Acquisition& acquisition, const sensors::Sensor& sensor,
+                              const std::string& group);
 
 /// Groups of the sensor that the acquisition asks for and that have wanted bands. Throws an input error for unknown names and
 /// for scan types without geometry.
@@ -30,7 +32,8 @@ struct FireScene {
     fire::SurfaceField surface;
     fire::FlameField flame;
 };
-FireScene make_fire_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const fire::FireState& state, double time_s);
+FireScene make_fire_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const fire::FireState& state,
+                          double time_s);
 
 /// Everything spectral of one camera group.
 struct SpectralScene {
@@ -39,7 +42,8 @@ struct SpectralScene {
     radiometry::ViewAtmosphere atmosphere;
 };
 /// \param sensor_agl_m sensor height above the mean terrain  \param sun position at the scene centre
-SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const std::vector<Spectrum>& responses,
-                                  double sensor_agl_m, const radiometry::SunPosition& sun, RunReport& report);
+SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const SceneInputs& inputs,
+                                  const std::vector<Spectrum>& responses, double sensor_agl_m,
+                                  const radiometry::SunPosition& sun, RunReport& report);
 
 }  // namespace pyroscene::pipeline

@@ -48,18 +48,21 @@ std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const 
     for (const auto& id : wanted_groups(a, sensor)) {
         const auto& group = sensor.group(id);
         std::vector<Spectrum> responses;
-        for (const int b : wanted_bands(a, sensor, id)) responses.push_back(sensor.bands[static_cast<std::size_t>(b)].response);
+        for (const int b : wanted_bands(a, sensor, id))
+            responses.push_back(sensor.bands[static_cast<std::size_t>(b)].response);
         const auto grid = radiometry::make_spectral_grid(responses);
-        const bool point = sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;
+        const bool point =
+            sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;
         const double rays_per_pixel = point ? 1.0 : s.render.samples_per_axis * s.render.samples_per_axis;
         const double pixels = static_cast<double>(group.samples) * group.lines, n = grid.size();
         seconds += pixels * (rays_per_pixel * (kRay_s + kRayWavelength_s * n) + kPixelWavelength_s * n);
         // Radiance, terms and truth in memory once, and once more while they are written.
         const double megabytes = 2.0 * pixels * 4.0 * (static_cast<double>(responses.size()) * 11.0 + 16.0) / 1e6;
-        out += fmt::format("  {}: {} group {}, {} x {} pixels, {} bands on {} transport wavelengths, {:.0f} rays per pixel, "
-                           "fire state of {:g} s, about {:.0f} MB\n",
-                           a.id, sensor.id, id, group.samples, group.lines, responses.size(), grid.size(), rays_per_pixel,
-                           in.frames[frame].time_s, megabytes);
+        out += fmt::format(
+            "  {}: {} group {}, {} x {} pixels, {} bands on {} transport wavelengths, {:.0f} rays per pixel, "
+            "fire state of {:g} s, about {:.0f} MB\n",
+            a.id, sensor.id, id, group.samples, group.lines, responses.size(), grid.size(), rays_per_pixel,
+            in.frames[frame].time_s, megabytes);
     }
     return out;
 }
@@ -84,10 +87,12 @@ CheckResult check(const Scenario& scenario) {
     if (!result.problems.empty()) return result;
     const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
     result.summary = fmt::format(
-        "{}: ready to run\n  map: {} x {} cells of {:g} m, terrain {:.0f} to {:.0f} m, centre {:.4f} N {:.4f} E\n  frames: {} ({:g} s to {:g} s)\n{}"
+        "{}: ready to run\n  map: {} x {} cells of {:g} m, terrain {:.0f} to {:.0f} m, centre {:.4f} N {:.4f} E\n  frames: "
+        "{} ({:g} s to {:g} s)\n{}"
         "  estimated rendering time: {:.1f} s on {} cores\n",
-        scenario.name, in.grid.cols, in.grid.rows, in.grid.cell_m, in.lowest_m, in.highest_m, in.centre.lat_deg, in.centre.lon_deg,
-        in.frames.size(), in.frames.front().time_s, in.frames.back().time_s, acquisitions, seconds / cores, cores);
+        scenario.name, in.grid.cols, in.grid.rows, in.grid.cell_m, in.lowest_m, in.highest_m, in.centre.lat_deg,
+        in.centre.lon_deg, in.frames.size(), in.frames.front().time_s, in.frames.back().time_s, acquisitions,
+        seconds / cores, cores);
     return result;
 }
 

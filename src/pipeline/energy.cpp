@@ -27,8 +27,8 @@ double mean_absorption_per_m(const scenario::FlameSettings& flame, double temper
 
 }  // namespace
 
-void record_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& in, const fire::FireState& state,
-                   const FireScene& scene, const std::string& acquisition_id) {
+void record_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& in,
+                   const fire::FireState& state, const FireScene& scene, const std::string& acquisition_id) {
     const auto& surface = scene.surface;
     double front_W = 0.0, scar_W = 0.0;
     const double ambient4 = fourth_power(surface.ambient_temperature_K), front4 = fourth_power(surface.front_temperature_K);
@@ -41,8 +41,8 @@ void record_energy(RunReport& report, const scenario::Scenario& scenario, const 
     front_W *= kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
     scar_W *= kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
     const double flame_K = scenario.flame.parameters.temperature_K;
-    const double flame_W = 4.0 * mean_absorption_per_m(scenario.flame, flame_K) * kStefanBoltzmann_W_m2_K4 * fourth_power(flame_K) *
-                           scene.flame.emissive_volume_m3();
+    const double flame_W = 4.0 * mean_absorption_per_m(scenario.flame, flame_K) * kStefanBoltzmann_W_m2_K4 *
+                           fourth_power(flame_K) * scene.flame.emissive_volume_m3();
     const double released_W = heat_release_W(scenario, in, state.time_s);
 
     const auto prefix = "energy/" + acquisition_id + "/";
@@ -55,9 +55,10 @@ void record_energy(RunReport& report, const scenario::Scenario& scenario, const 
     report.record(prefix + "radiant_fraction", fraction);
     constexpr double kImplausible = 0.35;
     if (fraction > kImplausible && scenario.physics == fire::Physics::Default)
-        report.warn(fmt::format("acquisition '{}': front and flame radiate {:.0f} % of the heat released (published: 10-25 %); "
-                                "see fire.flaming_heat_flux_W_m2 and flame.soot_volume_fraction",
-                                acquisition_id, 100.0 * fraction));
+        report.warn(
+            fmt::format("acquisition '{}': front and flame radiate {:.0f} % of the heat released (published: 10-25 %); "
+                        "see fire.flaming_heat_flux_W_m2 and flame.soot_volume_fraction",
+                        acquisition_id, 100.0 * fraction));
 }
 
 }  // namespace pyroscene::pipeline

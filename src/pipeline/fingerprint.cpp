@@ -14,15 +14,18 @@ namespace {
 using scenario::RasterSource;
 using scenario::Scenario;
 
-std::string text(const RasterSource& s) { return fmt::format("b{}t{};", fmt::join(s.bands, ","), fmt::join(s.times_s, ",")); }
+std::string text(const RasterSource& s) {
+    return fmt::format("b{}t{};", fmt::join(s.bands, ","), fmt::join(s.times_s, ","));
+}
 
 std::string fire_text(const Scenario& s) {
     const auto& f = s.fire;
-    std::string out = fmt::format(
-        "{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", static_cast<int>(f.physics), f.front_threshold_W_m2,
-        f.front_temperature_K, f.ambient_temperature_K, f.flaming_heat_flux_W_m2, f.scar.amplitude1_K, f.scar.time_constant1_s,
-        f.scar.amplitude2_K, f.scar.time_constant2_s, f.scar.floor_K, f.height_alpha, f.volumetric_heat_release_W_m3,
-        f.one_sigma_rule, f.air_density_kg_m3, f.air_heat_capacity_J_kg_K, f.air_temperature_K, f.maximum_tilt_rad, f.jitter_m, f.seed);
+    std::string out =
+        fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", static_cast<int>(f.physics),
+                    f.front_threshold_W_m2, f.front_temperature_K, f.ambient_temperature_K, f.flaming_heat_flux_W_m2,
+                    f.scar.amplitude1_K, f.scar.time_constant1_s, f.scar.amplitude2_K, f.scar.time_constant2_s,
+                    f.scar.floor_K, f.height_alpha, f.volumetric_heat_release_W_m3, f.one_sigma_rule, f.air_density_kg_m3,
+                    f.air_heat_capacity_J_kg_K, f.air_temperature_K, f.maximum_tilt_rad, f.jitter_m, f.seed);
     out += text(s.inputs.terrain) + text(s.inputs.heat_flux);
     if (s.inputs.arrival) out += text(*s.inputs.arrival);
     if (s.inputs.wind) {
@@ -35,15 +38,16 @@ std::string fire_text(const Scenario& s) {
 std::string scene_text(const Scenario& s) {
     const auto& flame = s.flame;
     const auto& r = s.render;
-    std::string out = fmt::format("{}|{}|{}|{}|{}|{};", flame.parameters.temperature_K, fmt::join(flame.parameters.voxel_m, ","),
-                                  flame.parameters.ember_gap_m, flame.soot_volume_fraction,
-                                  flame.grey_absorption_per_m.value_or(-1.0), flame.off);
+    std::string out = fmt::format("{}|{}|{}|{}|{}|{};", flame.parameters.temperature_K,
+                                  fmt::join(flame.parameters.voxel_m, ","), flame.parameters.ember_gap_m,
+                                  flame.soot_volume_fraction, flame.grey_absorption_per_m.value_or(-1.0), flame.off);
     out += fmt::format("{}|{}|{};", s.surface.unburned, s.surface.burned, s.surface.emissivity.value_or(-1.0));
     if (s.inputs.cover) out += text(s.inputs.cover->raster) + s.inputs.cover->table;
-    out += fmt::format("{}|{}|{}|{};", s.atmosphere.model, s.atmosphere.visibility_km, s.atmosphere.ground_elevation_m.value_or(-1e9),
+    out += fmt::format("{}|{}|{}|{};", s.atmosphere.model, s.atmosphere.visibility_km,
+                       s.atmosphere.ground_elevation_m.value_or(-1e9),
                        s.atmosphere.file ? sha256_of_file(*s.atmosphere.file) : "");
-    return out + fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", r.samples_per_axis, r.light_directions, r.light_reach_m, r.flame_light, r.sun,
-                             s.start.unix_s, s.seed, s.products.truth);
+    return out + fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", r.samples_per_axis, r.light_directions, r.light_reach_m,
+                             r.flame_light, r.sun, s.start.unix_s, s.seed, s.products.truth);
 }
 
 std::string sensor_text(const std::string& id_or_path) {
@@ -69,9 +73,9 @@ std::string Fingerprints::state(double time_s) const {
 
 std::string Fingerprints::image(const scenario::Acquisition& a) const {
     const auto& p = a.platform;
-    std::string pose = fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", a.id, a.time_s, p.over_centre, p.over_fire,
-                                   p.altitude_agl_m.value_or(-1.0), p.altitude_m.value_or(-1e9), fmt::join(a.groups, ","),
-                                   fmt::join(a.bands, ","));
+    std::string pose =
+        fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", a.id, a.time_s, p.over_centre, p.over_fire, p.altitude_agl_m.value_or(-1.0),
+                    p.altitude_m.value_or(-1e9), fmt::join(a.groups, ","), fmt::join(a.bands, ","));
     pose += fmt::format("|{}|{}|{}", p.heading_deg, p.pitch_deg, p.roll_deg);
     if (p.map_xy_m) pose += fmt::format("|{}", fmt::join(*p.map_xy_m, ","));
     if (p.lat_lon_deg) pose += fmt::format("|{}", fmt::join(*p.lat_lon_deg, ","));
@@ -80,7 +84,8 @@ std::string Fingerprints::image(const scenario::Acquisition& a) const {
 
 std::string Fingerprints::product(const scenario::Acquisition& a) const {
     const auto& p = scenario_.products;
-    return sha256(image(a) + fmt::format("{}{}{}{}{}{}", p.brightness_temperature, p.ortho, p.truth, p.fractions, p.frp, p.quicklook))
+    return sha256(image(a) +
+                  fmt::format("{}{}{}{}{}{}", p.brightness_temperature, p.ortho, p.truth, p.fractions, p.frp, p.quicklook))
         .substr(0, 32);
 }
 

@@ -43,7 +43,8 @@ std::string sha256_of_file(const std::filesystem::path& path) {
     if (!in) throw input_error(path.string(), "cannot be opened");
     Sha256 hash;
     std::array<char, 1 << 16> buffer{};
-    while (in.read(buffer.data(), buffer.size()) || in.gcount() > 0) hash.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
+    while (in.read(buffer.data(), buffer.size()) || in.gcount() > 0)
+        hash.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
     return hash.hex();
 }
 

@@ -36,9 +36,12 @@ struct Rendered {
     double gsd_m = 0.0;
     std::vector<float> pixel_area_m2;
 
-    [[nodiscard]] std::span<const double> where(GeolocationPlane p) const { return std::span(geolocation.pixels).subspan(p * n, n); }
+    [[nodiscard]] std::span<const double> where(GeolocationPlane p) const {
+        return std::span(geolocation.pixels).subspan(p * n, n);
+    }
     [[nodiscard]] std::vector<float> truth_plane(std::size_t p) const {
-        return {truth->pixels.begin() + static_cast<std::ptrdiff_t>(p * n), truth->pixels.begin() + static_cast<std::ptrdiff_t>((p + 1) * n)};
+        return {truth->pixels.begin() + static_cast<std::ptrdiff_t>(p * n),
+                truth->pixels.begin() + static_cast<std::ptrdiff_t>((p + 1) * n)};
     }
     [[nodiscard]] std::vector<float> radiance_plane(std::size_t band) const {
         return {radiance.pixels.begin() + static_cast<std::ptrdiff_t>(band * n),
@@ -52,7 +55,9 @@ void measure_pixels(Rendered& r) {
     std::vector<float> valid;
     for (int line = 0; line < r.lines; ++line)
         for (int sample = 0; sample < r.samples; ++sample) {
-            const auto at = [&](int s, int l) { return static_cast<std::size_t>(l) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(s); };
+            const auto at = [&](int s, int l) {
+                return static_cast<std::size_t>(l) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(s);
+            };
             const int s0 = std::max(sample - 1, 0), s1 = std::min(sample + 1, r.samples - 1);
             const int l0 = std::max(line - 1, 0), l1 = std::min(line + 1, r.lines - 1);
             if (s1 == s0 || l1 == l0) continue;
@@ -99,7 +104,8 @@ Product brightness_product(const ProductJob& job, const Rendered& r) {
         const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
         const radiometry::BandThermometer thermometer(band.response);
         p.bands.push_back({band.id + " brightness temperature", "K", band.centre_um, band.fwhm_um, {{"band_id", band.id}}});
-        for (std::size_t i = 0; i < r.n; ++i) p.pixels.push_back(static_cast<float>(thermometer.temperature_K(r.radiance.pixels[k * r.n + i])));
+        for (std::size_t i = 0; i < r.n; ++i)
+            p.pixels.push_back(static_cast<float>(thermometer.temperature_K(r.radiance.pixels[k * r.n + i])));
     }
     return p;
 }
@@ -115,7 +121,10 @@ Product fractions_product(const Rendered& r) {
 }
 
 Product frp_product(const Rendered& r) {
-    Product p{"frp", {{"fire radiative power per area", "W m-2", {}, {}, {}}, {"fire radiative power of the pixel", "MW", {}, {}, {}}}, {}};
+    Product p{
+        "frp",
+        {{"fire radiative power per area", "W m-2", {}, {}, {}}, {"fire radiative power of the pixel", "MW", {}, {}, {}}},
+        {}};
     p.pixels = r.truth_plane(kExitance);
     for (std::size_t i = 0; i < r.n; ++i) p.pixels.push_back(p.pixels[i] * r.pixel_area_m2[i] * 1e-6F);
     return p;
@@ -130,8 +139,11 @@ gis::OutputRaster raster_of(const ProductJob& job, const Product& product) {
     gis::OutputRaster out;
     out.bands = product.bands;
     out.acquisition_time = scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
-    out.metadata = {{"SCENARIO", job.scenario.name}, {"ACQUISITION", job.acquisition.id}, {"SENSOR", job.sensor.id},
-                    {"CAMERA_GROUP", job.group.id},  {"FINGERPRINT", job.fingerprint}};
+    out.metadata = {{"SCENARIO", job.scenario.name},
+                    {"ACQUISITION", job.acquisition.id},
+                    {"SENSOR", job.sensor.id},
+                    {"CAMERA_GROUP", job.group.id},
+                    {"FINGERPRINT", job.fingerprint}};
     return out;
 }
 
@@ -151,7 +163,8 @@ void write_ortho(const ProductJob& job, const Rendered& r, const Product& produc
     std::vector<float> pixels;
     pixels.reserve(product.bands.size() * lookup.grid.size());
     for (std::size_t k = 0; k < product.bands.size(); ++k) {
-        const auto plane = analysis::ortho_resample(lookup, r.samples, r.lines, std::span(product.pixels).subspan(k * r.n, r.n), false);
+        const auto plane =
+            analysis::ortho_resample(lookup, r.samples, r.lines, std::span(product.pixels).subspan(k * r.n, r.n), false);
         pixels.insert(pixels.end(), plane.begin(), plane.end());
     }
     gis::write_cog(job.files.file("ortho_" + product.stem), out, std::span<const float>(pixels));
@@ -167,16 +180,17 @@ void write_fire_pixels(const ProductJob& job, const Rendered& r, const Product& 
         constexpr double kSmallest = 1e-3;
         if (!(flame[i] + front[i] > kSmallest)) continue;
         const double power_MW = frp.pixels[r.n + i];
-        features.push_back({{"type", "Feature"},
-                            {"geometry",
-                             {{"type", "Point"},
-                              {"coordinates", {round_to(r.where(kLongitude)[i], 1e-7), round_to(r.where(kLatitude)[i], 1e-7)}}}},
-                            {"properties",
-                             {{"sample", i % static_cast<std::size_t>(r.samples)},
-                              {"line", i / static_cast<std::size_t>(r.samples)},
-                              {"frp_MW", std::isfinite(power_MW) ? Json(round_to(power_MW, 1e-6)) : Json(nullptr)},
-                              {"flame_fraction", round_to(flame[i], 1e-4)},
-                              {"front_fraction", round_to(front[i], 1e-4)}}}});
+        features.push_back(
+            {{"type", "Feature"},
+             {"geometry",
+              {{"type", "Point"},
+               {"coordinates", {round_to(r.where(kLongitude)[i], 1e-7), round_to(r.where(kLatitude)[i], 1e-7)}}}},
+             {"properties",
+              {{"sample", i % static_cast<std::size_t>(r.samples)},
+               {"line", i / static_cast<std::size_t>(r.samples)},
+               {"frp_MW", std::isfinite(power_MW) ? Json(round_to(power_MW, 1e-6)) : Json(nullptr)},
+               {"flame_fraction", round_to(flame[i], 1e-4)},
+               {"front_fraction", round_to(front[i], 1e-4)}}}});
     }
     const Json collection = {{"type", "FeatureCollection"},
                              {"name", job.acquisition.id + " fire pixels (synthetic)"},
@@ -193,9 +207,11 @@ void write_perimeter(const ProductJob& job, const std::filesystem::path& output)
     for (std::size_t i = 0; i < burned.values.size(); ++i)
         burned.values[i] = state.cell_class.values[i] == 1 || state.cell_class.values[i] == 2 ? 1 : 0;
     gis::write_polygons(job.files.folder / ("perimeter" + job.files.suffix + ".geojson"), burned,
-                        {{"name", job.scenario.name}, {"acquisition", job.acquisition.id},
+                        {{"name", job.scenario.name},
+                         {"acquisition", job.acquisition.id},
                          {"datetime", scenario::UtcTime{job.scenario.start.unix_s + state.time_s}.iso8601()},
-                         {"map_method", "Modeled"}, {"synthetic", "true"}});
+                         {"map_method", "Modeled"},
+                         {"synthetic", "true"}});
 }
 
 void write_picture(const ProductJob& job, const Rendered& r, const Product& brightness) {
@@ -217,8 +233,12 @@ void write_picture(const ProductJob& job, const Rendered& r, const Product& brig
     constexpr double kThermal_um = 3.0;
     if (job.scenario.products.brightness_temperature && band.centre_um > kThermal_um && panels.size() < kMostPanels) {
         const auto first = brightness.pixels.begin() + static_cast<std::ptrdiff_t>(warmest * r.n);
-        panels.push_back({band.id + " brightness temperature", "K", r.samples, r.lines,
-                          {first, first + static_cast<std::ptrdiff_t>(r.n)}, false});
+        panels.push_back({band.id + " brightness temperature",
+                          "K",
+                          r.samples,
+                          r.lines,
+                          {first, first + static_cast<std::ptrdiff_t>(r.n)},
+                          false});
     }
     const auto caption = fmt::format("{}  {}  {}  {}  SYNTHETIC", job.scenario.name, job.acquisition.id, job.sensor.id,
                                      scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601());
@@ -230,7 +250,8 @@ std::vector<std::array<double, 2>> footprint(const Rendered& r) {
     std::vector<std::array<double, 2>> ring;
     constexpr int kPerSide = 8;
     const auto add = [&](int sample, int line) {
-        const std::size_t i = static_cast<std::size_t>(line) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(sample);
+        const std::size_t i =
+            static_cast<std::size_t>(line) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(sample);
         if (!std::isnan(r.where(kLongitude)[i])) ring.push_back({r.where(kLongitude)[i], r.where(kLatitude)[i]});
     };
     for (int k = 0; k < kPerSide; ++k) add(k * (r.samples - 1) / kPerSide, 0);
@@ -259,7 +280,8 @@ StacImage stac_image(const ProductJob& job, const Rendered& r, const MapGrid& gr
     image.footprint_lon_lat = footprint(r);
     image.gsd_m = std::round(r.gsd_m * 100.0) / 100.0;
     image.ortho_grid = grid;
-    const std::size_t centre = static_cast<std::size_t>(r.lines / 2) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(r.samples / 2);
+    const std::size_t centre = static_cast<std::size_t>(r.lines / 2) * static_cast<std::size_t>(r.samples) +
+                               static_cast<std::size_t>(r.samples / 2);
     const auto finite_or_zero = [](double v) { return std::isfinite(v) ? v : 0.0; };
     image.off_nadir_deg = finite_or_zero(r.where(kViewZenith)[centre]);
     image.sun_azimuth_deg = finite_or_zero(r.where(kSunAzimuth)[centre]);
@@ -267,7 +289,8 @@ StacImage stac_image(const ProductJob& job, const Rendered& r, const MapGrid& gr
     for (const auto& entry : std::filesystem::directory_iterator(job.files.folder)) {
         const auto name = entry.path().filename().string();
         const bool mine = job.files.suffix.empty() || entry.path().stem().string().ends_with(job.files.suffix);
-        if (entry.is_regular_file() && mine && !name.starts_with(".") && !name.starts_with("item")) image.assets.push_back(entry.path());
+        if (entry.is_regular_file() && mine && !name.starts_with(".") && !name.starts_with("item"))
+            image.assets.push_back(entry.path());
     }
     std::sort(image.assets.begin(), image.assets.end());
     return image;

@@ -56,14 +56,16 @@ cv::Mat colourise(const QuicklookPanel& panel, const ColourScale& scale) {
     cv::Mat grey(panel.rows, panel.cols, CV_8UC1), colour;
     for (int row = 0; row < panel.rows; ++row)
         for (int col = 0; col < panel.cols; ++col) {
-            const float v = panel.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(panel.cols) + static_cast<std::size_t>(col)];
+            const float v = panel.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(panel.cols) +
+                                         static_cast<std::size_t>(col)];
             const double p = std::isfinite(v) ? std::clamp(scale.position(v), 0.0, 1.0) : 0.0;
             grey.at<unsigned char>(row, col) = static_cast<unsigned char>(std::lround(255.0 * p));
         }
     cv::applyColorMap(grey, colour, cv::COLORMAP_INFERNO);
     for (int row = 0; row < panel.rows; ++row)
         for (int col = 0; col < panel.cols; ++col)
-            if (!std::isfinite(panel.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(panel.cols) + static_cast<std::size_t>(col)]))
+            if (!std::isfinite(panel.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(panel.cols) +
+                                            static_cast<std::size_t>(col)]))
                 colour.at<cv::Vec3b>(row, col) = cv::Vec3b(200, 200, 200);
     return colour;
 }

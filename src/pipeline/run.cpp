@@ -46,7 +46,9 @@ struct Session {
     void progress(const std::string& step, double fraction) const {
         if (options.on_progress) options.on_progress(step, fraction);
     }
-    [[nodiscard]] std::string utc(double time_s) const { return scenario::UtcTime{scenario.start.unix_s + time_s}.iso8601(); }
+    [[nodiscard]] std::string utc(double time_s) const {
+        return scenario::UtcTime{scenario.start.unix_s + time_s}.iso8601();
+    }
 };
 
 bool is_current(const std::filesystem::path& file, const std::string& fingerprint, const RunOptions& options) {
@@ -79,9 +81,10 @@ void warn_of_sparse_frames(const Session& s) {
     for (std::size_t i = 1; i < s.inputs.frames.size(); ++i)
         widest = std::max(widest, s.inputs.frames[i].time_s - s.inputs.frames[i - 1].time_s);
     if (widest > s.scenario.fire.scar.time_constant1_s)
-        s.report.warn(fmt::format("frames are up to {:.0f} s apart, more than the scar's time constant ({:.0f} s): give "
-                                  "inputs.arrival to date scars that burned between frames",
-                                  widest, s.scenario.fire.scar.time_constant1_s));
+        s.report.warn(
+            fmt::format("frames are up to {:.0f} s apart, more than the scar's time constant ({:.0f} s): give "
+                        "inputs.arrival to date scars that burned between frames",
+                        widest, s.scenario.fire.scar.time_constant1_s));
 }
 
 void prepare_phase(Session& s) {
@@ -117,7 +120,8 @@ fire::FireState state_for(const Session& s, const Acquisition& acquisition) {
     return read_state(path, s.inputs.grid, s.inputs.arrival_time_s);
 }
 
-AcquisitionFiles files_of(const Session& s, const Acquisition& acquisition, const std::string& group, std::size_t group_count) {
+AcquisitionFiles files_of(const Session& s, const Acquisition& acquisition, const std::string& group,
+                          std::size_t group_count) {
     return {s.options.output / acquisition.id, group_count > 1 ? "_" + group : ""};
 }
 
@@ -141,8 +145,17 @@ void render_acquisition(Session& s, const Acquisition& acquisition, std::optiona
             scene = make_fire_scene(s.scenario, s.inputs, *state, acquisition.time_s);
             record_energy(s.report, s.scenario, s.inputs, *state, *scene, acquisition.id);
         }
-        const GroupJob job{s.scenario, acquisition, s.inputs, *scene, *terrain, sensor, sensor.group(id),
-                           wanted_bands(acquisition, sensor, id), resolve_pose(acquisition, s.inputs, *state), files, fingerprint};
+        const GroupJob job{s.scenario,
+                           acquisition,
+                           s.inputs,
+                           *scene,
+                           *terrain,
+                           sensor,
+                           sensor.group(id),
+                           wanted_bands(acquisition, sensor, id),
+                           resolve_pose(acquisition, s.inputs, *state),
+                           files,
+                           fingerprint};
         render_group(job, s.monitor("render " + acquisition.id), s.report);
         s.report.count("images_made", 1);
     }
@@ -165,10 +178,19 @@ void products_phase(Session& s) {
             if (!is_current(files.radiance(), s.fingerprints.image(*acquisition), RunOptions{}))
                 throw input_error(files.radiance().string(),
                                   "no current radiance for this scenario; run 'pyroscene render' first");
-            const ProductJob job{s.scenario, *acquisition, s.inputs, sensor, sensor.group(id), wanted_bands(*acquisition, sensor, id),
-                                 files, s.fingerprints.product(*acquisition), s.options.force};
-            if (make_products(job, s.options, s.report)) s.report.count("product_sets_made", 1);
-            else s.report.count("product_sets_skipped", 1);
+            const ProductJob job{s.scenario,
+                                 *acquisition,
+                                 s.inputs,
+                                 sensor,
+                                 sensor.group(id),
+                                 wanted_bands(*acquisition, sensor, id),
+                                 files,
+                                 s.fingerprints.product(*acquisition),
+                                 s.options.force};
+            if (make_products(job, s.options, s.report))
+                s.report.count("product_sets_made", 1);
+            else
+                s.report.count("product_sets_skipped", 1);
         }
     }
     write_catalog(s.scenario, s.options.output);
@@ -177,8 +199,9 @@ void products_phase(Session& s) {
 /// Runs some phases and writes run.json whatever happens.
 template <class Phases>
 void in_session(const Scenario& scenario, const RunOptions& options, RunReport& report, const Phases& phases) {
-    const auto threads = options.threads > 0 ? static_cast<std::size_t>(options.threads)
-                                             : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    const auto threads = options.threads > 0
+                             ? static_cast<std::size_t>(options.threads)
+                             : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     std::optional<Session> session;
     try {

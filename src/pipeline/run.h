@@ -33,7 +33,7 @@ void run(const scenario::Scenario& scenario, const RunOptions& options, RunRepor
 struct CheckResult {
     std::vector<std::string> problems;  ///< one line each; empty = ready to run
     std::vector<std::string> warnings;
-    std::string summary;                ///< size and estimated cost, several lines
+    std::string summary;  ///< size and estimated cost, several lines
 };
 CheckResult check(const scenario::Scenario& scenario);
 

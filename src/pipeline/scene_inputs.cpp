@@ -56,20 +56,23 @@ WindPair wind_pair(const RasterSource& source, std::size_t frame_count, std::siz
         throw input_error(source.files.front().string(),
                           fmt::format("wind needs pairs of bands (u, v); found {} band(s)", bands.size()));
     std::vector<WindPair> pairs;
-    for (std::size_t i = 0; i < bands.size(); i += 2) pairs.push_back({bands[i].file, bands[i].band, bands[i + 1].band, bands[i].time_s});
+    for (std::size_t i = 0; i < bands.size(); i += 2)
+        pairs.push_back({bands[i].file, bands[i].band, bands[i + 1].band, bands[i].time_s});
     if (!source.times_s.empty()) {
         if (source.times_s.size() != pairs.size())
-            throw input_error("inputs.wind.times_s", fmt::format("{} times for {} pairs of bands", source.times_s.size(), pairs.size()));
+            throw input_error("inputs.wind.times_s",
+                              fmt::format("{} times for {} pairs of bands", source.times_s.size(), pairs.size()));
         for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].time_s = source.times_s[i];
     }
     if (pairs.size() == 1) return pairs.front();
     const bool timed = std::none_of(pairs.begin(), pairs.end(), [](const WindPair& p) { return std::isnan(p.time_s); });
     if (!timed) {
         if (pairs.size() == frame_count) return pairs[frame];
-        throw input_error(source.files.front().string(),
-                          fmt::format("{} pairs of wind bands without time_s for {} frames; set inputs.wind.bands: [u, v] or "
-                                      "inputs.wind.times_s",
-                                      pairs.size(), frame_count));
+        throw input_error(
+            source.files.front().string(),
+            fmt::format("{} pairs of wind bands without time_s for {} frames; set inputs.wind.bands: [u, v] or "
+                        "inputs.wind.times_s",
+                        pairs.size(), frame_count));
     }
     std::size_t found = 0;
     for (std::size_t i = 0; i < pairs.size() && pairs[i].time_s <= frame_time_s; ++i) found = i;
@@ -108,8 +111,9 @@ std::vector<FrameSource> heat_flux_frames(const RasterSource& source) {
     auto frames = frame_bands(source);
     if (!source.times_s.empty()) {
         if (source.times_s.size() != frames.size())
-            throw input_error("inputs.heat_flux.times_s", fmt::format("{} times for {} frames of '{}'", source.times_s.size(),
-                                                                      frames.size(), source.files.front().string()));
+            throw input_error("inputs.heat_flux.times_s",
+                              fmt::format("{} times for {} frames of '{}'", source.times_s.size(), frames.size(),
+                                          source.files.front().string()));
         for (std::size_t i = 0; i < frames.size(); ++i) frames[i].time_s = source.times_s[i];
     }
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -128,7 +132,8 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     SceneInputs in;
     const auto& terrain = scenario.inputs.terrain;
     in.grid = gis::make_map_grid(terrain.files.front(), scenario.map_crs, scenario.map_cell_m);
-    in.terrain_m = gis::read_band({terrain.files.front(), first_band(terrain), gis::Resampling::Bilinear, "terrain", "m"}, in.grid);
+    in.terrain_m =
+        gis::read_band({terrain.files.front(), first_band(terrain), gis::Resampling::Bilinear, "terrain", "m"}, in.grid);
     double sum = 0.0;
     std::size_t count = 0;
     in.lowest_m = 1e30;
@@ -170,11 +175,11 @@ fire::FrameInputs load_frame(const Scenario& scenario, const SceneInputs& inputs
     // A uniform wind is given against true north; the grid's axes are turned by the convergence at the centre.
     const double speed = wind ? wind->speed_m_s : 0.0;
     const double from_rad = wind ? wind->from_deg * kDegree_rad : 0.0;
-    const double convergence =
-        gis::MapProjection(inputs.grid.crs_wkt).convergence_rad(inputs.origin_m.x, inputs.origin_m.y);
+    const double convergence = gis::MapProjection(inputs.grid.crs_wkt).convergence_rad(inputs.origin_m.x, inputs.origin_m.y);
     const double to_grid_rad = from_rad + kPi - convergence;
     out.wind_east_m_s = Raster<float>(inputs.grid, "wind east", "m s-1", static_cast<float>(speed * std::sin(to_grid_rad)));
-    out.wind_north_m_s = Raster<float>(inputs.grid, "wind north", "m s-1", static_cast<float>(speed * std::cos(to_grid_rad)));
+    out.wind_north_m_s =
+        Raster<float>(inputs.grid, "wind north", "m s-1", static_cast<float>(speed * std::cos(to_grid_rad)));
     return out;
 }
 

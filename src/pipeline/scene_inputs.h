@@ -29,9 +29,9 @@ struct SceneInputs {
     Raster<std::uint8_t> cover;            ///< index into the surface library of unburnt ground
     std::vector<std::string> cover_names;  ///< what the indices mean (surface spectrum names)
     std::optional<Raster<float>> arrival_time_s;
-    std::vector<FrameSource> frames;       ///< ascending in time
-    Vec3 origin_m;                         ///< map x, y of the scene frame's origin (centre of the grid), z = 0
-    gis::Geodetic centre;                  ///< of the map, at mean terrain height
+    std::vector<FrameSource> frames;  ///< ascending in time
+    Vec3 origin_m;                    ///< map x, y of the scene frame's origin (centre of the grid), z = 0
+    gis::Geodetic centre;             ///< of the map, at mean terrain height
     double lowest_m = 0.0, highest_m = 0.0, mean_height_m = 0.0;
 };
 

@@ -6,13 +6,20 @@ namespace pyroscene::pipeline {
 
 const char* scan_type_name(sensors::ScanType scan) noexcept {
     switch (scan) {
-        case sensors::ScanType::Framing: return "framing";
-        case sensors::ScanType::Pushbroom: return "pushbroom";
-        case sensors::ScanType::Whiskbroom: return "whiskbroom";
-        case sensors::ScanType::LineScanner: return "line_scanner";
-        case sensors::ScanType::Conical: return "conical";
-        case sensors::ScanType::SpinScan: return "spin_scan";
-        case sensors::ScanType::GeoScan: return "geo_scan";
+        case sensors::ScanType::Framing:
+            return "framing";
+        case sensors::ScanType::Pushbroom:
+            return "pushbroom";
+        case sensors::ScanType::Whiskbroom:
+            return "whiskbroom";
+        case sensors::ScanType::LineScanner:
+            return "line_scanner";
+        case sensors::ScanType::Conical:
+            return "conical";
+        case sensors::ScanType::SpinScan:
+            return "spin_scan";
+        case sensors::ScanType::GeoScan:
+            return "geo_scan";
     }
     return "";
 }

@@ -62,7 +62,9 @@ Json asset(const ProductJob& job, const std::filesystem::path& file) {
 
 }  // namespace
 
-std::filesystem::path stac_item_path(const AcquisitionFiles& files) { return files.folder / ("item" + files.suffix + ".json"); }
+std::filesystem::path stac_item_path(const AcquisitionFiles& files) {
+    return files.folder / ("item" + files.suffix + ".json");
+}
 
 std::string stac_item_fingerprint(const std::filesystem::path& item) {
     std::ifstream in(item);
@@ -76,29 +78,27 @@ void write_stac_item(const ProductJob& job, const StacImage& image) {
     Json ring = Json::array();
     for (const auto& point : image.footprint_lon_lat) ring.push_back(point);
     const auto& grid = image.ortho_grid;
-    Json properties = {
-        {"datetime", scenario::UtcTime{job.scenario.start.unix_s + a.time_s}.iso8601()},
-        {"title", fmt::format("{} {} (synthetic)", job.scenario.name, a.id)},
-        {"platform", job.sensor.platform_name},
-        {"instruments", Json::array({job.sensor.id})},
-        {"gsd", image.gsd_m},
-        {"view:off_nadir", image.off_nadir_deg},
-        {"view:sun_azimuth", image.sun_azimuth_deg},
-        {"view:sun_elevation", image.sun_elevation_deg},
-        {"proj:wkt2", grid.crs_wkt},
-        {"proj:shape", Json::array({grid.rows, grid.cols})},
-        {"proj:transform", Json::array({grid.cell_m, 0.0, grid.west_m, 0.0, -grid.cell_m, grid.north_m})},
-        {"processing:software", {{"pyroscene", version()}}},
-        {"pyroscene:synthetic", true},
-        {"pyroscene:fingerprint", job.fingerprint}};
+    Json properties = {{"datetime", scenario::UtcTime{job.scenario.start.unix_s + a.time_s}.iso8601()},
+                       {"title", fmt::format("{} {} (synthetic)", job.scenario.name, a.id)},
+                       {"platform", job.sensor.platform_name},
+                       {"instruments", Json::array({job.sensor.id})},
+                       {"gsd", image.gsd_m},
+                       {"view:off_nadir", image.off_nadir_deg},
+                       {"view:sun_azimuth", image.sun_azimuth_deg},
+                       {"view:sun_elevation", image.sun_elevation_deg},
+                       {"proj:wkt2", grid.crs_wkt},
+                       {"proj:shape", Json::array({grid.rows, grid.cols})},
+                       {"proj:transform", Json::array({grid.cell_m, 0.0, grid.west_m, 0.0, -grid.cell_m, grid.north_m})},
+                       {"processing:software", {{"pyroscene", version()}}},
+                       {"pyroscene:synthetic", true},
+                       {"pyroscene:fingerprint", job.fingerprint}};
     Json item = {{"type", "Feature"},
                  {"stac_version", kStacVersion},
-                 {"stac_extensions",
-                  Json::array({"https://stac-extensions.github.io/eo/v1.1.0/schema.json",
-                               "https://stac-extensions.github.io/projection/v1.1.0/schema.json",
-                               "https://stac-extensions.github.io/raster/v1.1.0/schema.json",
-                               "https://stac-extensions.github.io/view/v1.0.0/schema.json",
-                               "https://stac-extensions.github.io/processing/v1.1.0/schema.json"})},
+                 {"stac_extensions", Json::array({"https://stac-extensions.github.io/eo/v1.1.0/schema.json",
+                                                  "https://stac-extensions.github.io/projection/v1.1.0/schema.json",
+                                                  "https://stac-extensions.github.io/raster/v1.1.0/schema.json",
+                                                  "https://stac-extensions.github.io/view/v1.0.0/schema.json",
+                                                  "https://stac-extensions.github.io/processing/v1.1.0/schema.json"})},
                  {"id", job.scenario.name + "_" + a.id + job.files.suffix},
                  {"geometry", {{"type", "Polygon"}, {"coordinates", Json::array({ring})}}},
                  {"bbox", bounding_box(image.footprint_lon_lat)},
@@ -123,12 +123,13 @@ void write_catalog(const scenario::Scenario& scenario, const std::filesystem::pa
         for (const auto& name : items)
             links.push_back({{"rel", "item"}, {"href", "./" + a.id + "/" + name}, {"type", "application/geo+json"}});
     }
-    const Json catalog = {{"type", "Catalog"},
-                          {"stac_version", kStacVersion},
-                          {"id", scenario.name},
-                          {"title", scenario.title.empty() ? scenario.name : scenario.title},
-                          {"description", "Synthetic remote-sensing images of a simulated wildland fire, made by Pyroscene."},
-                          {"links", links}};
+    const Json catalog = {
+        {"type", "Catalog"},
+        {"stac_version", kStacVersion},
+        {"id", scenario.name},
+        {"title", scenario.title.empty() ? scenario.name : scenario.title},
+        {"description", "Synthetic remote-sensing images of a simulated wildland fire, made by Pyroscene."},
+        {"links", links}};
     write_text_file(output / "catalog.json", catalog.dump(2) + "\n");
 }
 

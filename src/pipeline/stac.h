@@ -15,7 +15,7 @@ struct StacImage {
     std::vector<std::array<double, 2>> footprint_lon_lat;  ///< closed ring, counter-clockwise
     double gsd_m = 0.0;
     double sun_azimuth_deg = 0.0, sun_elevation_deg = 0.0, off_nadir_deg = 0.0;
-    std::vector<std::filesystem::path> assets;             ///< files in the acquisition's folder
+    std::vector<std::filesystem::path> assets;  ///< files in the acquisition's folder
     MapGrid ortho_grid;
 };
 void write_stac_item(const ProductJob& job, const StacImage& image);

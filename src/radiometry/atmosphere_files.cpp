@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -58,6 +59,7 @@ void add(std::vector<AtmosphereFile>& files, const AtmosphereFile& wanted) {
 
 std::vector<std::string> atmosphere_models() {
     std::vector<std::string> names;
+    names.reserve(std::size(kModels));
     for (const auto& model : kModels) names.emplace_back(model.name);
     return names;
 }
@@ -65,6 +67,7 @@ std::vector<std::string> atmosphere_models() {
 std::vector<AtmosphereFile> atmosphere_files(const std::string& model) {
     std::vector<AtmosphereFile> files;
     if (!find_model(model).complete) return {file(model, kBaseVisibility_km, 0.0)};
+    files.reserve(std::size(kGrounds_km) + std::size(kVisibilities_km));
     for (const double ground_km : kGrounds_km) files.push_back(file(model, kBaseVisibility_km, ground_km));
     for (const double visibility_km : kVisibilities_km) add(files, file(model, visibility_km, 0.0));
     return files;

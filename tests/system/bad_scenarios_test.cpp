@@ -36,13 +36,15 @@ TEST_P(BadScenario, IsRefusedWithItsMessage) {
     const ScratchFolder scratch;
     const auto result = pyroscene_cli("run " + file.string() + " -o " + (scratch / "out").string());
     EXPECT_EQ(result.exit_code, 3) << result.output;
-    for (const auto& text : expected) EXPECT_NE(result.output.find(text), std::string::npos) << "expected: " << text << "\n" << result.output;
+    for (const auto& text : expected)
+        EXPECT_NE(result.output.find(text), std::string::npos) << "expected: " << text << "\n" << result.output;
     EXPECT_LT(result.output.size(), 2000U) << "the message should be short";
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, BadScenario, testing::ValuesIn(bad_scenarios()), [](const auto& param_info) {
     std::string name = param_info.param;
-    std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
     return name;
 });
 

@@ -48,7 +48,8 @@ TEST(Calc, KnownValues) {
 TEST(Calc, TableKeepsItsColumnsAndAppendsResults) {
     const ScratchFolder scratch;
     std::ofstream(scratch / "in.csv") << "# points\nname,wavelength_um,temperature_K\na,4,1100\nb,11,300\n";
-    const auto result = pyroscene_cli("calc planck --csv " + (scratch / "in.csv").string() + " -o " + (scratch / "out.csv").string());
+    const auto result =
+        pyroscene_cli("calc planck --csv " + (scratch / "in.csv").string() + " -o " + (scratch / "out.csv").string());
     ASSERT_EQ(result.exit_code, 0) << result.output;
     const auto table = read_csv(scratch / "out.csv");
     EXPECT_EQ(table.columns, (std::vector<std::string>{"name", "wavelength_um", "temperature_K", "radiance_W_m2_sr_um"}));
@@ -60,7 +61,8 @@ TEST(Calc, TableKeepsItsColumnsAndAppendsResults) {
 TEST(Sensors, ListAndDetails) {
     const auto list = pyroscene_cli("sensors");
     EXPECT_EQ(list.exit_code, 0);
-    for (const std::string id : {"wasp", "wasp-thesis", "generic-framing"}) EXPECT_NE(list.output.find(id), std::string::npos);
+    for (const std::string id : {"wasp", "wasp-thesis", "generic-framing"})
+        EXPECT_NE(list.output.find(id), std::string::npos);
     const auto one = pyroscene_cli("sensors wasp");
     EXPECT_NE(one.output.find("MWIR"), std::string::npos);
     EXPECT_NE(pyroscene_cli("sensors wasp --json").output.find("\"saturation_radiance_W_m2_sr_um\""), std::string::npos);

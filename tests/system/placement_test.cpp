@@ -82,7 +82,8 @@ atmosphere: {{model: none}}
 acquisitions:
   - {{id: shot, sensor: camera.yaml, time_s: 0, platform: {{over: centre, altitude_agl_m: 1800, heading_deg: 37, pitch_deg: 12, roll_deg: -9}}}}
 products: [radiance, truth, ortho]
-)", kGroundTemperature_K));
+)",
+                                                     kGroundTemperature_K));
     return grid;
 }
 
@@ -95,7 +96,8 @@ std::array<double, 2> shift_against_paint(const std::vector<double>& image, cons
     const auto model = [&](double x, double y) {
         double share = 0.0;
         for (int i = -1; i <= 1; ++i)
-            for (int j = -1; j <= 1; ++j) share += painted(x - x0 + i * ortho.cell_m / 3.0, y - y0 + j * ortho.cell_m / 3.0) ? 1.0 : 0.0;
+            for (int j = -1; j <= 1; ++j)
+                share += painted(x - x0 + i * ortho.cell_m / 3.0, y - y0 + j * ortho.cell_m / 3.0) ? 1.0 : 0.0;
         return low + (high - low) * share / 9.0;
     };
     const auto error = [&](double dx_m, double dy_m) {
@@ -136,9 +138,10 @@ TEST_P(Placement, OrthoAndGeolocationLieOnThePaint) {
     const auto shift = shift_against_paint(plane(image, 0), ortho, grid.west_m, grid.south_m());
     EXPECT_LE(std::hypot(shift[0], shift[1]), 0.1) << shift[0] << " " << shift[1];
 
-    const auto warp = run_command(fmt::format("gdalwarp -q -geoloc -r bilinear -t_srs {} -te {} {} {} {} -tr {} {} -dstnodata nan {} {}",
-                                              GetParam().crs, ortho.west_m, ortho.south_m(), ortho.east_m(), ortho.north_m, ortho.cell_m,
-                                              ortho.cell_m, (folder / "out/shot/radiance.tif").string(), (folder / "warped.tif").string()));
+    const auto warp = run_command(
+        fmt::format("gdalwarp -q -geoloc -r bilinear -t_srs {} -te {} {} {} {} -tr {} {} -dstnodata nan {} {}",
+                    GetParam().crs, ortho.west_m, ortho.south_m(), ortho.east_m(), ortho.north_m, ortho.cell_m, ortho.cell_m,
+                    (folder / "out/shot/radiance.tif").string(), (folder / "warped.tif").string()));
     ASSERT_EQ(warp.exit_code, 0) << warp.output;
     const auto warped = gis::read_image(folder / "warped.tif");
     const auto warp_shift = shift_against_paint(plane(warped, 0), ortho, grid.west_m, grid.south_m());
@@ -146,7 +149,8 @@ TEST_P(Placement, OrthoAndGeolocationLieOnThePaint) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Earth, Placement,
-                         testing::Values(Place{"utm_north", "EPSG:32611", 46.69, -114.9}, Place{"utm_south", "EPSG:32719", -33.4, -70.3},
+                         testing::Values(Place{"utm_north", "EPSG:32611", 46.69, -114.9},
+                                         Place{"utm_south", "EPSG:32719", -33.4, -70.3},
                                          Place{"zone_edge", "EPSG:32611", 46.69, -114.02}),
                          [](const auto& param_info) { return param_info.param.name; });
 

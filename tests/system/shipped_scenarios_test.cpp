@@ -40,15 +40,17 @@ std::size_t band_named(const gis::ImageFile& image, const std::string& descripti
     return 0;
 }
 
-std::string first_acquisition(const std::string& folder) { return scenario::load(scenario_file(folder)).acquisitions.front().id; }
+std::string first_acquisition(const std::string& folder) {
+    return scenario::load(scenario_file(folder)).acquisitions.front().id;
+}
 
 TEST(Minimal, WritesEverythingTheContractNames) {
     const ScratchFolder scratch;
     run_in(scenario_file("minimal"), scratch / "out");
     const auto acquisition = scratch / "out" / first_acquisition("minimal");
-    for (const char* file : {"radiance.tif", "geolocation.tif", "truth.tif", "brightness_temperature.tif", "fractions.tif", "frp.tif",
-                             "ortho_radiance.tif", "ortho_brightness_temperature.tif", "quicklook.png", "item.json", "fire_pixels.geojson",
-                             "perimeter.geojson"})
+    for (const char* file : {"radiance.tif", "geolocation.tif", "truth.tif", "brightness_temperature.tif", "fractions.tif",
+                             "frp.tif", "ortho_radiance.tif", "ortho_brightness_temperature.tif", "quicklook.png",
+                             "item.json", "fire_pixels.geojson", "perimeter.geojson"})
         EXPECT_TRUE(std::filesystem::exists(acquisition / file)) << file;
     EXPECT_TRUE(std::filesystem::exists(scratch / "out" / "run.json"));
     EXPECT_TRUE(std::filesystem::exists(scratch / "out" / "catalog.json"));
@@ -113,7 +115,8 @@ TEST(Minimal, SameBytesForAnyNumberOfThreads) {
 
 TEST(Minimal, FinishedOutputsAreSkippedAndChangesRedone) {
     const ScratchFolder scratch;
-    std::filesystem::copy(source_folder() / "scenarios" / "minimal", scratch / "minimal", std::filesystem::copy_options::recursive);
+    std::filesystem::copy(source_folder() / "scenarios" / "minimal", scratch / "minimal",
+                          std::filesystem::copy_options::recursive);
     const auto file = scratch / "minimal/scenario.yaml";
     const auto counters_of = [&] {
         pipeline::RunOptions options;
@@ -169,8 +172,9 @@ TEST(ThesisGrassfire, FrontCellsPerFrame) {
     options.output = scratch / "out";
     RunReport report;
     pipeline::prepare(scenario::load(scenario_file("thesis_grassfire")), options, report);
-    const std::vector<std::pair<int, int>> expected{{0, 40},      {960, 434},   {1800, 781},  {3000, 1564}, {3672, 1478}, {3678, 1480},
-                                                    {3690, 1477}, {3702, 1465}, {3714, 1453}, {3816, 1393}, {3996, 1300}, {4440, 1201}};
+    const std::vector<std::pair<int, int>> expected{{0, 40},      {960, 434},   {1800, 781},  {3000, 1564},
+                                                    {3672, 1478}, {3678, 1480}, {3690, 1477}, {3702, 1465},
+                                                    {3714, 1453}, {3816, 1393}, {3996, 1300}, {4440, 1201}};
     for (const auto& [time_s, cells] : expected) {
         const auto state = gis::read_image(scratch / "out" / "state" / fmt::format("t{:09d}.tif", time_s));
         const auto labels = plane(state, 0);

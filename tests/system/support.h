@@ -36,7 +36,8 @@ std::filesystem::path source_folder();
 
 /// Writes one float band on a map grid; `value(x_m, y_m)` is taken at cell centres.
 void write_band(const std::filesystem::path& file, const MapGrid& grid, const std::string& unit,
-                const std::function<double(double x_m, double y_m)>& value, const std::map<std::string, std::string>& band_metadata = {});
+                const std::function<double(double x_m, double y_m)>& value,
+                const std::map<std::string, std::string>& band_metadata = {});
 
 /// One plane of an image.
 std::vector<double> plane(const gis::ImageFile& image, std::size_t band);

@@ -120,7 +120,8 @@ TEST(FrontPatches, WithoutArrivalTimesAreRandomButReproducible) {
     EXPECT_NE(field.front_fraction, surface_at(state, 130.0, other, 4).front_fraction);
     // The part without flames is vegetation in the first frame of the cell's fire and scar from the second on; the pattern
     // is not the same in all cells.
-    const auto second = surface_at(advance(&state, frame(130.0, std::vector<float>(20, 1.25e5F)), kDefaults), 130.0, kDefaults, 4);
+    const auto second =
+        surface_at(advance(&state, frame(130.0, std::vector<float>(20, 1.25e5F)), kDefaults), 130.0, kDefaults, 4);
     int first_fine_cell_flames = 0;
     for (int col = 0; col < 20; ++col) {
         EXPECT_NEAR(celsius(field, 0, 4 * col), 34.0, 1e-3);
