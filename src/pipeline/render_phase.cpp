@@ -26,13 +26,15 @@ public:
         constexpr double kStep_deg = 0.05;
         here_ = at(0.0, 0.0);
         const auto north = at(kStep_deg, 0.0), east = at(0.0, kStep_deg);
-        zenith_per_deg_ = {(north.zenith_rad - here_.zenith_rad) / kStep_deg, (east.zenith_rad - here_.zenith_rad) / kStep_deg};
+        zenith_per_deg_ = {(north.zenith_rad - here_.zenith_rad) / kStep_deg,
+                           (east.zenith_rad - here_.zenith_rad) / kStep_deg};
         azimuth_per_deg_ = {std::remainder(north.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg,
                             std::remainder(east.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg};
     }
     [[nodiscard]] const radiometry::SunPosition& centre() const { return here_; }
     [[nodiscard]] double zenith_rad(double lat_deg, double lon_deg) const {
-        return here_.zenith_rad + zenith_per_deg_[0] * (lat_deg - centre_.lat_deg) + zenith_per_deg_[1] * (lon_deg - centre_.lon_deg);
+        return here_.zenith_rad + zenith_per_deg_[0] * (lat_deg - centre_.lat_deg) +
+               zenith_per_deg_[1] * (lon_deg - centre_.lon_deg);
     }
     [[nodiscard]] double azimuth_rad(double lat_deg, double lon_deg) const {
         return here_.azimuth_rad + azimuth_per_deg_[0] * (lat_deg - centre_.lat_deg) +
@@ -57,21 +59,23 @@ Vec3 sun_direction(const radiometry::SunPosition& sun, double convergence_rad) {
 
 /// The geolocation planes in the order of the file.
 constexpr std::array<std::array<const char*, 2>, 9> kGeolocationBands{{{"longitude", "degree"},
-                                                                        {"latitude", "degree"},
-                                                                        {"height", "m"},
-                                                                        {"view_zenith", "degree"},
-                                                                        {"view_azimuth", "degree"},
-                                                                        {"sun_zenith", "degree"},
-                                                                        {"sun_azimuth", "degree"},
-                                                                        {"range", "m"},
-                                                                        {"time", "s"}}};
+                                                                       {"latitude", "degree"},
+                                                                       {"height", "m"},
+                                                                       {"view_zenith", "degree"},
+                                                                       {"view_azimuth", "degree"},
+                                                                       {"sun_zenith", "degree"},
+                                                                       {"sun_azimuth", "degree"},
+                                                                       {"range", "m"},
+                                                                       {"time", "s"}}};
 
-std::vector<double> geolocate(const RadianceImage& image, const sensors::FrameChords& chords, const LocalSun& sun, double time_s) {
+std::vector<double> geolocate(const RadianceImage& image, const sensors::FrameChords& chords, const LocalSun& sun,
+                              double time_s) {
     const std::size_t n = static_cast<std::size_t>(image.samples) * static_cast<std::size_t>(image.lines);
     std::vector<double> planes(n * kGeolocationBands.size(), std::nan(""));
     tbb::parallel_for(0, image.lines, [&](int line) {
         for (int sample = 0; sample < image.samples; ++sample) {
-            const std::size_t i = static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
+            const std::size_t i =
+                static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
             if (!(image.coverage[i] > 0.0F)) continue;
             const auto chord = chords.at(sample + 0.5, line + 0.5);
             const double f = (chord.top_m.z - image.hit_z_m[i]) / (chord.top_m.z - chord.bottom_m.z);
@@ -100,8 +104,10 @@ std::vector<gis::GroundControlPoint> control_points(const RadianceImage& image, 
     for (int r = 0; r < kPerAxis; ++r)
         for (int c = 0; c < kPerAxis; ++c) {
             const int line = r * (image.lines - 1) / (kPerAxis - 1), sample = c * (image.samples - 1) / (kPerAxis - 1);
-            const std::size_t i = static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
-            if (!std::isnan(planes[i])) points.push_back({sample + 0.5, line + 0.5, planes[i], planes[n + i], planes[2 * n + i]});
+            const std::size_t i =
+                static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
+            if (!std::isnan(planes[i]))
+                points.push_back({sample + 0.5, line + 0.5, planes[i], planes[n + i], planes[2 * n + i]});
         }
     return points;
 }
@@ -203,7 +209,8 @@ void write_truth(const GroupJob& job, const RadianceImage& image, const std::vec
         const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
         const auto plane = [&](const auto& cube) { return std::span(cube).subspan(k * n, n); };
         const auto radiance = [&](const std::string& name) {
-            return gis::OutputBand{band.id + " " + name, "W m-2 sr-1 um-1", band.centre_um, band.fwhm_um, {{"band_id", band.id}}};
+            return gis::OutputBand{
+                band.id + " " + name, "W m-2 sr-1 um-1", band.centre_um, band.fwhm_um, {{"band_id", band.id}}};
         };
         add(radiance("radiance_noise_free"), plane(image.radiance_W_m2_sr_um));
         add({band.id + " saturated", "1", {}, {}, {{"band_id", band.id}}}, plane(saturated));
@@ -219,7 +226,8 @@ void report_image(const GroupJob& job, const RadianceImage& image, const render:
     report.count("pixels", rays);
     const auto missed = std::count_if(image.coverage.begin(), image.coverage.end(), [](float c) { return !(c > 0.0F); });
     if (missed > 0)
-        report.warn(fmt::format("acquisition '{}': {} of {} pixels look past the scene and are no data", job.acquisition.id, missed, rays));
+        report.warn(fmt::format("acquisition '{}': {} of {} pixels look past the scene and are no data", job.acquisition.id,
+                                missed, rays));
     report.count("transport_wavelengths/" + job.acquisition.id, scene.optics->lambda_count);
     report.count("flame_bricks/" + job.acquisition.id, static_cast<std::int64_t>(scene.flame->bricks.size()));
 }
@@ -260,8 +268,8 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
                                           {{}, monitor.cancelled});
     }
 
-    const bool point_sampled = job.sensor.psf_across.shape == sensors::Psf::Shape::None &&
-                               job.sensor.psf_along.shape == sensors::Psf::Shape::None;
+    const bool point_sampled =
+        job.sensor.psf_across.shape == sensors::Psf::Shape::None && job.sensor.psf_along.shape == sensors::Psf::Shape::None;
     const auto pattern = sensors::pixel_samples(job.sensor.psf_across, job.sensor.psf_along,
                                                 point_sampled ? 1 : scenario.render.samples_per_axis);
     render::ImageRequest request;
