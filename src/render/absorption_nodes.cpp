@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "render/spectral_kernels.h"
+#include <cstddef>
 
 namespace pyroscene::render {
 namespace {
 
 constexpr double kNodeRatio = 1.4;
-constexpr double kLeastShare = 1e-4;  ///< of the largest k: fainter flame than this gives no light worth tracing
+constexpr double kLeastShare = 1e-3;  ///< of the largest k: fainter flame than this gives no light worth tracing
 
 }  // namespace
 
@@ -18,11 +17,10 @@ AbsorptionNodes::AbsorptionNodes(std::span<const float> absorption_per_m) : plac
     const double lowest = std::max(static_cast<double>(*std::min_element(absorption_per_m.begin(), absorption_per_m.end())),
                                    kLeastShare * highest);
     if (highest / lowest < 1.0 + 1e-6) {
-        k_per_m_.assign(SpectralKernels::kLanes, static_cast<float>(highest));
+        k_per_m_.assign(1, static_cast<float>(highest));
         return;
     }
-    const int nodes =
-        padded(std::max(4, static_cast<int>(std::ceil(std::log(highest / lowest) / std::log(kNodeRatio))) + 1));
+    const int nodes = std::max(4, static_cast<int>(std::ceil(std::log(highest / lowest) / std::log(kNodeRatio))) + 1);
     const double step = std::log(highest / lowest) / (nodes - 1);
     for (int i = 0; i < nodes; ++i) k_per_m_.push_back(static_cast<float>(lowest * std::exp(step * i)));
     for (std::size_t l = 0; l < places_.size(); ++l) {
@@ -36,14 +34,20 @@ AbsorptionNodes::AbsorptionNodes(std::span<const float> absorption_per_m) : plac
         place.weight[1] = static_cast<float>(x * (x - 2.0) * (x - 3.0) / 2.0);
         place.weight[2] = static_cast<float>(-x * (x - 1.0) * (x - 3.0) / 2.0);
         place.weight[3] = static_cast<float>(x * (x - 1.0) * (x - 2.0) / 6.0);
+        // Fainter than the first node: light in proportion to k.
+        for (float& w : place.weight) w *= static_cast<float>(std::min(1.0, absorption_per_m[l] / lowest));
     }
 }
 
-void AbsorptionNodes::interpolate(const float* at_nodes, std::span<float> out) const noexcept {
+void AbsorptionNodes::interpolate(const float* at_nodes, int spacing, std::span<float> out) const noexcept {
+    if (count() == 1) {
+        std::fill(out.begin(), out.end(), at_nodes[0]);
+        return;
+    }
     for (std::size_t l = 0; l < places_.size(); ++l) {
         const Place& p = places_[l];
-        const float* v = at_nodes + p.first;
-        out[l] = p.weight[0] * v[0] + p.weight[1] * v[1] + p.weight[2] * v[2] + p.weight[3] * v[3];
+        const float* v = at_nodes + static_cast<std::ptrdiff_t>(p.first) * spacing;
+        out[l] = p.weight[0] * v[0] + p.weight[1] * v[spacing] + p.weight[2] * v[2 * spacing] + p.weight[3] * v[3 * spacing];
     }
 }
 

@@ -12,11 +12,11 @@ class AbsorptionNodes {
 public:
     explicit AbsorptionNodes(std::span<const float> absorption_per_m);
 
-    /// Node values of k, padded with the last one to whole vectors.
+    /// Node values of k, ascending; a single one when all wavelengths have the same.
     [[nodiscard]] const std::vector<float>& k_per_m() const noexcept { return k_per_m_; }
-    [[nodiscard]] int padded_count() const noexcept { return static_cast<int>(k_per_m_.size()); }
-    /// out[l] = value at wavelength l, from values at the nodes.
-    void interpolate(const float* at_nodes, std::span<float> out) const noexcept;
+    [[nodiscard]] int count() const noexcept { return static_cast<int>(k_per_m_.size()); }
+    /// out[l] = value at wavelength l, from the values at the nodes, at_nodes[i * spacing].
+    void interpolate(const float* at_nodes, int spacing, std::span<float> out) const noexcept;
 
 private:
     struct Place {

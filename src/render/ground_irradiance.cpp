@@ -23,7 +23,7 @@ std::vector<std::size_t> receivers(const LightScene& shared, GroundIrradiance& l
     const RenderScene& scene = shared.scene;
     const MapGrid& grid = light.grid;
     light.row_of_cell.assign(grid.size(), -1);
-    const auto mark = [&](const FlamePlanes::Box& box) {
+    const auto mark = [&](const FlameColumns::Box& box) {
         const double reach_m = shared.settings.reach_m;
         const auto clamped = [](double at, int n) { return std::clamp(static_cast<int>(at), 0, n - 1); };
         const double west = box.west_m + scene.scene_origin_m.x, east = box.east_m + scene.scene_origin_m.x;
@@ -76,7 +76,7 @@ public:
           terrain_(tables.stride),
           through_(static_cast<std::size_t>(tables.stride)),
           opacity_(through_.size()),
-          of_row_(through_.size()) {}
+          of_moment_(through_.size()) {}
 
     void write(const Receiver& receiver, std::size_t row, GroundIrradiance& out) {
         light_.compute(receiver);
@@ -101,22 +101,19 @@ public:
     }
 
 private:
-    /// Irradiance by flames, and their opacity [sr], from the weights of the Planck rows at the absorption nodes.
+    /// Irradiance by flames, and their opacity [sr], from the moments of their emission at the absorption nodes.
     void sum_flame(float* irradiance) {
-        const int nodes = shared_->nodes.padded_count(), rows = shared_->planck.row_count();
-        const std::vector<float>& emitted = light_.emitted();
-        std::fill(opacity_.begin(), opacity_.end(), 0.0F);
-        const std::span<float> lambdas(of_row_.data(), static_cast<std::size_t>(tables_->lambdas));
-        for (int r = 0; r < rows; ++r) {
-            const float* at_nodes = emitted.data() + static_cast<std::ptrdiff_t>(r) * nodes;
-            if (std::all_of(at_nodes, at_nodes + nodes, [](float w) { return w == 0.0F; })) continue;
-            if (tables_->grey)
-                std::fill(of_row_.begin(), of_row_.end(), at_nodes[0]);
-            else
-                shared_->nodes.interpolate(at_nodes, lambdas);
-            kernels_->add_product(tables_->stride, 1.0F, of_row_.data(), shared_->planck.row(r), irradiance);
-            for (std::size_t l = 0; l < opacity_.size(); ++l) opacity_[l] += of_row_[l];
+        const int moments = shared_->planck.moments();
+        const float* emitted = light_.emitted().data();
+        const std::span<float> lambdas(of_moment_.data(), static_cast<std::size_t>(tables_->lambdas));
+        shared_->nodes.interpolate(emitted, moments, {opacity_.data(), lambdas.size()});
+        if (std::all_of(opacity_.begin(), opacity_.end(), [](float o) { return o == 0.0F; })) return;
+        for (int m = 0; m < moments; ++m) {
+            shared_->nodes.interpolate(emitted + m, moments, lambdas);
+            kernels_->add_product(tables_->stride, 1.0F, of_moment_.data(), shared_->planck.row(m), irradiance);
         }
+        // Where only much colder flame than the hottest is seen, the series may err to below zero at short wavelengths.
+        for (std::size_t l = 0; l < lambdas.size(); ++l) irradiance[l] = std::max(irradiance[l], 0.0F);
     }
 
     /// First order light of the slopes that hide the sky: their own emission and the open sky they reflect.
@@ -144,7 +141,7 @@ private:
     ReceiverLight light_;
     GroundMix mix_;
     GroundSpectra terrain_;
-    std::vector<float> through_, opacity_, of_row_;
+    std::vector<float> through_, opacity_, of_moment_;
 };
 
 }  // namespace
@@ -166,9 +163,9 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
     const LightScene shared(scene, settings);
     const std::vector<std::size_t> cells = receivers(shared, light);
     const std::size_t values = cells.size() * static_cast<std::size_t>(light.stride);
-    make_large(light.irradiance_W_m2_um, values);
-    if (tables.has_sky) make_large(light.sky_irradiance_W_m2_um, values);
-    if (tables.has_thermal_sky || shared.rough) make_large(light.thermal_irradiance_W_m2_um, values);
+    light.irradiance_W_m2_um.resize(values);
+    if (tables.has_sky) light.sky_irradiance_W_m2_um.resize(values);
+    if (tables.has_thermal_sky || shared.rough) light.thermal_irradiance_W_m2_um.resize(values);
 
     constexpr std::size_t kCellsPerTask = 32;
     tbb::enumerable_thread_specific<RowWriter> writers([&] { return RowWriter(shared, tables); });

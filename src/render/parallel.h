@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <mutex>
-#include <vector>
 
 #include "base/error.h"
 #include "base/report.h"
@@ -29,9 +27,5 @@ private:
     std::mutex mutex_;
     int steps_, done_ = 0;
 };
-
-/// Resizes an empty vector to `count` values, with huge pages where the system offers them on request: a cube of 300 MB
-/// otherwise takes 70 000 page faults.
-void make_large(std::vector<float>& values, std::size_t count);
 
 }  // namespace pyroscene::render

@@ -72,7 +72,7 @@ void Pixel::march(Vec3 start_m, Vec3 hit_m) {
     pieces_.clear();
     double depth = 0.0;
     const double least = prepared_->tables.least_absorption_per_m;
-    prepared_->flame.march(start_m, hit_m, [&](float T_K, float fill, double length_m) {
+    march_flame(prepared_->flame, start_m, hit_m, [&](float T_K, float fill, double length_m) {
         const double fill_length_m = fill * length_m;
         if (!pieces_.empty() && pieces_.back().temperature_K == T_K)
             pieces_.back().fill_length_m += fill_length_m;

@@ -17,7 +17,7 @@ struct PreparedScene {
     const RenderScene& scene;
     const GroundIrradiance* flame_light;  ///< may be null
     SceneTables tables;
-    FlameMarcher flame;
+    FlameColumns flame;
 };
 
 /// What the rays of one pixel met, as sums of ray weights; opacities and transmittances of flame are those at 4.0 um.

@@ -20,22 +20,16 @@ public:
     PlanckRows() = default;
     /// \param stride  floats per row, >= lambda_um.size(); the rest of a row is zero
     /// \param lowest_K, highest_K  range of the temperatures to come; outside it `at` clamps. lowest_K is held to >= 50 K.
-    /// \param resolution  c2 d(1/T) / shortest wavelength between nodes; 0.08 keeps the accuracy above, its error grows with
-    ///                    the fourth power
     PlanckRows(std::span<const double> lambda_um, int stride, double lowest_K, double highest_K,
-               std::span<const double> exact_K, double resolution = 0.08);
+               std::span<const double> exact_K);
 
     [[nodiscard]] Lookup at(double temperature_K) const noexcept;
-    /// The same in two steps, the first to be done once per voxel: node position of a temperature (0 in a table that has
-    /// no nodes but only one exact temperature), and the weights at that position.
-    [[nodiscard]] double position_of(double temperature_K) const noexcept;
-    [[nodiscard]] Lookup at_position(double position) const noexcept;
     [[nodiscard]] const float* row(int i) const noexcept { return values_.data() + static_cast<std::size_t>(i) * stride_; }
     [[nodiscard]] int row_count() const noexcept { return rows_; }
     [[nodiscard]] int stride() const noexcept { return static_cast<int>(stride_); }
 
 private:
-    void add_row(std::span<const double> lambda_um, double temperature_K);
+    void add_nodes(std::span<const double> lambda_um);
 
     std::size_t stride_ = 0;
     int rows_ = 0, nodes_ = 0;

@@ -9,13 +9,11 @@
 namespace pyroscene::render {
 namespace {
 
-constexpr double kPlanckResolution = 0.5;
-constexpr float kSamePosition = 0.3F;  ///< neighbours closer than this in the Planck table are one piece of flame
 constexpr int kPointsNearFlame = 8;
 constexpr int kPlanesNearFlame = 4;  ///< a point near flame has this many times fewer planes
-constexpr int kLeastPlanes = 4;      ///< through a flame however narrow it looks
-constexpr int kLeastStrata = 4;
-constexpr double kStrataPerHemisphere = 24.0;
+constexpr int kLeastPlanes = 8;      ///< through a flame however narrow it looks
+constexpr int kStrata = PlaneTrace::kLanes;
+constexpr float kLeastSlope = 1e-6F;
 constexpr double kOpaqueDepth = 9.0;
 
 /// Monotone stand-in for the azimuth of (dx, dy), 0 <= p < 4: the quadrant and the place in it. Spares the arc tangent.
@@ -37,20 +35,22 @@ double slope_of_measure(double v) noexcept {
     return std::copysign(std::sqrt(std::abs(v) / std::max(1.0 - std::abs(v), 1e-12)), v);
 }
 
-PlanckRows coarse_planck(const RenderScene& scene) {
+PlanckSeries planck_series(const RenderScene& scene) {
     const auto [low, high] = scene.flame->temperature_range_K();
-    const std::array<double, 1> only{high};
-    const int stride = padded(scene.optics->lambda_count);
-    return {
-        scene.optics->lambda_um, stride, low, high, low == high ? std::span<const double>(only) : std::span<const double>(),
-        kPlanckResolution};
+    return {scene.optics->lambda_um, padded(scene.optics->lambda_count), low, high};
 }
 
 }  // namespace
 
 LightScene::LightScene(const RenderScene& s, const GroundLightSettings& g)
-    : scene(s), settings(g), planck(coarse_planck(s)), nodes(s.optics->flame_absorption_per_m), flame(*s.flame, planck) {
-    least_k_per_m = *std::min_element(nodes.k_per_m().begin(), nodes.k_per_m().end());
+    : scene(s), settings(g), planck(planck_series(s)), nodes(s.optics->flame_absorption_per_m), flame(*s.flame) {
+    voxels.reserve(s.flame->bricks.size() * fire::FlameField::kBrickVoxels * 2);
+    for (const auto& brick : s.flame->bricks) {
+        for (std::size_t v = 0; v < brick.fill.size(); ++v) {
+            voxels.push_back(brick.fill[v]);
+            voxels.push_back(brick.fill[v] > 0.0F ? static_cast<float>(planck.reduced(brick.temperature_K[v])) : 0.0F);
+        }
+    }
     const auto [low, high] = s.terrain->height_range_m();
     rough = high - low > 1e-3;
 }
@@ -76,13 +76,14 @@ double skyline_slope(const TerrainMesh& terrain, Vec3 from_m, double dx, double 
 ReceiverLight::ReceiverLight(const LightScene& shared)
     : shared_(&shared),
       kernels_(&spectral_kernels()),
-      tau_(static_cast<std::size_t>(shared.nodes.padded_count())),
-      emitted_(static_cast<std::size_t>(shared.planck.row_count()) * tau_.size()) {}
+      emitted_(static_cast<std::size_t>(shared.nodes.count()) * static_cast<std::size_t>(shared.planck.moments())) {
+    sums_.resize(emitted_.size() * kStrata);
+}
 
 bool ReceiverLight::is_near_flame(const Receiver& receiver) const {
-    const FlamePlanes& flame = shared_->flame;
+    const FlameColumns& flame = shared_->flame;
     const double cell_m = shared_->scene.terrain->grid().cell_m;
-    const auto near = [&](const FlamePlanes::Box& box) {
+    const auto near = [&](const FlameColumns::Box& box) {
         return box.squared_gap_m2(receiver.x_m, receiver.y_m, 0.5 * cell_m) < cell_m * cell_m;
     };
     for (std::size_t b = 0; b < flame.boxes().size(); ++b) {
@@ -95,7 +96,7 @@ bool ReceiverLight::is_near_flame(const Receiver& receiver) const {
 }
 
 /// Adds the azimuths of a box seen from a point; true when the point lies in the box.
-bool ReceiverLight::add_arc(const FlamePlanes::Box& box, double x_m, double y_m) {
+bool ReceiverLight::add_arc(const FlameColumns::Box& box, double x_m, double y_m) {
     const double west = box.west_m - x_m, east = box.east_m - x_m, south = box.south_m - y_m, north = box.north_m - y_m;
     if (west <= 0.0 && east >= 0.0 && south <= 0.0 && north >= 0.0) return true;
     // The two corners of the silhouette, counter-clockwise, by the side of the box that the point lies on.
@@ -113,11 +114,11 @@ bool ReceiverLight::add_arc(const FlamePlanes::Box& box, double x_m, double y_m)
 
 /// Azimuths in which any flame within reach stands. Boxes nearer than their own size are resolved into their parts.
 void ReceiverLight::find_arcs(double x_m, double y_m) {
-    const FlamePlanes& flame = shared_->flame;
+    const FlameColumns& flame = shared_->flame;
     const double reach2_m2 = shared_->settings.reach_m * shared_->settings.reach_m;
     arcs_.clear();
     for (std::size_t b = 0; b < flame.boxes().size(); ++b) {
-        const FlamePlanes::Box& box = flame.boxes()[b];
+        const FlameColumns::Box& box = flame.boxes()[b];
         const double gap2_m2 = box.squared_gap_m2(x_m, y_m, 0.0);
         if (gap2_m2 > reach2_m2) continue;
         const double size_m = std::max(box.east_m - box.west_m, box.north_m - box.south_m);
@@ -158,17 +159,24 @@ void ReceiverLight::merge_arcs() {
 }
 
 void ReceiverLight::compute(const Receiver& receiver) {
-    std::fill(emitted_.begin(), emitted_.end(), 0.0F);
+    std::fill(sums_.begin(), sums_.end(), 0.0F);
+    const int around = shared_->settings.directions;
     if (!is_near_flame(receiver)) {
-        compute_point(receiver.x_m, receiver.y_m, receiver, shared_->settings.directions, 1.0);
-        return;
+        compute_point(receiver.x_m, receiver.y_m, receiver, around, 1.0);
+    } else {
+        const double cell_m = shared_->scene.terrain->grid().cell_m;
+        for (int p = 0; p < kPointsNearFlame; ++p) {
+            // Additive recurrence with the plastic number (Roberts 2018): even over the cell.
+            const double u = 0.5 + 0.7548776662466927 * p, v = 0.5 + 0.5698402909980532 * p;
+            compute_point(receiver.x_m + (u - std::floor(u) - 0.5) * cell_m,
+                          receiver.y_m + (v - std::floor(v) - 0.5) * cell_m, receiver,
+                          std::max(4, around / kPlanesNearFlame), 1.0 / kPointsNearFlame);
+        }
     }
-    const double cell_m = shared_->scene.terrain->grid().cell_m;
-    for (int p = 0; p < kPointsNearFlame; ++p) {
-        // Additive recurrence with the plastic number (Roberts 2018): even over the cell.
-        const double u = 0.5 + 0.7548776662466927 * p, v = 0.5 + 0.5698402909980532 * p;
-        compute_point(receiver.x_m + (u - std::floor(u) - 0.5) * cell_m, receiver.y_m + (v - std::floor(v) - 0.5) * cell_m,
-                      receiver, std::max(4, shared_->settings.directions / kPlanesNearFlame), 1.0 / kPointsNearFlame);
+    for (std::size_t i = 0; i < emitted_.size(); ++i) {
+        float sum = 0.0F;
+        for (int s = 0; s < kStrata; ++s) sum += sums_[i * kStrata + static_cast<std::size_t>(s)];
+        emitted_[i] = sum;
     }
 }
 
@@ -186,35 +194,54 @@ void ReceiverLight::compute_point(double x_m, double y_m, const Receiver& receiv
 
 void ReceiverLight::trace_plane(Vec3 from_m, const Receiver& receiver, double azimuth, double weight) {
     const double dx = std::cos(azimuth), dy = std::sin(azimuth);
-    columns_.clear();
-    shared_->flame.cross(from_m.x, from_m.y, dx, dy, shared_->settings.reach_m, columns_);
+    cross_columns(from_m, dx, dy);
     if (columns_.empty()) return;
     if (shared_->rough) find_horizons(from_m, dx, dy);
-
     const PlaneWeight plane{receiver.normal.x * dx + receiver.normal.y * dy, receiver.normal.z};
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const PlaneColumn& c : columns_) {
-        const double bottom_m = shared_->flame.bottom_m() + c.k_begin * shared_->flame.dz_m() - from_m.z;
-        const double top_m = shared_->flame.bottom_m() + c.k_end * shared_->flame.dz_m() - from_m.z;
-        const auto slope = [](double height_m, double run_m) {
-            return run_m > 0.0F ? height_m / run_m : std::copysign(std::numeric_limits<double>::infinity(), height_m);
-        };
-        high = std::max(high, slope(top_m, top_m > 0.0 ? c.enter_m : c.leave_m));
-        low =
-            std::min(low, std::max(slope(bottom_m, bottom_m > 0.0 ? c.leave_m : c.enter_m), static_cast<double>(c.horizon)));
-    }
-    low = std::max(low, plane.lowest_slope());
-    if (!(low < high)) return;
+    double low = plane.lowest_slope(), high = 0.0;
+    if (!slopes_of_flame(from_m, low, high)) return;
 
-    const double v_low = elevation_measure(low), v_high = elevation_measure(high);
-    const int strata = std::max(kLeastStrata, static_cast<int>(std::ceil((v_high - v_low) * kStrataPerHemisphere)));
+    alignas(32) std::array<float, kStrata> slopes{}, weights{};
+    const double v_low = elevation_measure(low), v_step = (elevation_measure(high) - v_low) / kStrata;
     double below = plane.below(low);
-    for (int s = 0; s < strata; ++s) {
-        const double v_top = v_low + (v_high - v_low) * (s + 1) / strata;
-        const double up_to = plane.below(s + 1 == strata ? high : slope_of_measure(v_top));
-        trace_stratum(from_m.z, slope_of_measure(v_top - 0.5 * (v_high - v_low) / strata), weight * (up_to - below));
+    for (int s = 0; s < kStrata; ++s) {
+        const auto i = static_cast<std::size_t>(s);
+        const double up_to = plane.below(s + 1 == kStrata ? high : slope_of_measure(v_low + (s + 1) * v_step));
+        const auto slope = static_cast<float>(slope_of_measure(v_low + (s + 0.5) * v_step));
+        slopes[i] = std::abs(slope) < kLeastSlope ? kLeastSlope : slope;
+        weights[i] = static_cast<float>(weight * (up_to - below));
         below = up_to;
     }
+    PlaneTrace trace;
+    trace.columns = columns_.data();
+    trace.column_count = static_cast<int>(columns_.size());
+    trace.voxels = shared_->voxels.data();
+    trace.slope = slopes.data();
+    trace.weight = weights.data();
+    const fire::VoxelGrid& grid = shared_->flame.grid();
+    trace.receiver_height = static_cast<float>((from_m.z - grid.corner_m.z) / grid.dz_m);
+    trace.voxels_per_m = static_cast<float>(1.0 / grid.dz_m);
+    trace.k_per_m = shared_->nodes.k_per_m().data();
+    trace.nodes = shared_->nodes.count();
+    trace.moments = shared_->planck.moments();
+    trace.opaque_m = static_cast<float>(kOpaqueDepth) / shared_->nodes.k_per_m().front();
+    trace.sums = sums_.data();
+    kernels_->trace_plane(trace);
+}
+
+/// Columns with flame on the horizontal ray from a point, near to far, within reach.
+void ReceiverLight::cross_columns(Vec3 from_m, double dx, double dy) {
+    columns_.clear();
+    const fire::VoxelGrid& grid = shared_->flame.grid();
+    const double reach_m = shared_->settings.reach_m;
+    const double x = (from_m.x - grid.corner_m.x) / grid.dx_m, y = (from_m.y - grid.corner_m.y) / grid.dy_m;
+    shared_->flame.cross(
+        AxisWalk(x, x + dx * reach_m / grid.dx_m), AxisWalk(y, y + dy * reach_m / grid.dy_m), 0.0, 1.0,
+        [&](const FlameColumns::Column& column, double enter, double leave) {
+            columns_.push_back({static_cast<float>(enter * reach_m), static_cast<float>(leave * reach_m),
+                                -std::numeric_limits<float>::infinity(), column.first_voxel, column.k_begin, column.k_end});
+            return true;
+        });
 }
 
 /// Notes for each column how steep a line of sight must be to pass the terrain in front of it.
@@ -223,7 +250,7 @@ void ReceiverLight::find_horizons(Vec3 from_m, double dx, double dy) {
     const double step_m = terrain.grid().cell_m;
     double slope = -std::numeric_limits<double>::infinity(), r = step_m;
     for (PlaneColumn& column : columns_) {
-        for (; r < column.enter_m; r += step_m) {
+        for (; r < static_cast<double>(column.enter_m); r += step_m) {
             const double h = terrain.height_at(from_m.x + r * dx, from_m.y + r * dy);
             if (h > -1e9) slope = std::max(slope, (h - from_m.z) / r);
         }
@@ -231,54 +258,23 @@ void ReceiverLight::find_horizons(Vec3 from_m, double dx, double dy) {
     }
 }
 
-void ReceiverLight::trace_stratum(double z_m, double slope, double weight) {
-    const FlamePlanes& flame = shared_->flame;
-    const auto start = static_cast<float>((z_m - flame.bottom_m()) / flame.dz_m()),
-               rise = static_cast<float>(slope / flame.dz_m());
-    const auto stretch = static_cast<float>(std::sqrt(1.0 + slope * slope)), w = static_cast<float>(weight);
-    const float run_per_voxel = rise != 0.0F ? 1.0F / std::abs(rise) : std::numeric_limits<float>::infinity();
-    const auto opaque_m = static_cast<float>(kOpaqueDepth / shared_->least_k_per_m);
-    std::fill(tau_.begin(), tau_.end(), 1.0F);
-    float depth_m = 0.0F, total_m = 0.0F, position = 0.0F;
+/// Range of slopes in which the columns show flame above the terrain; `low` is at least what it was. False when empty.
+bool ReceiverLight::slopes_of_flame(Vec3 from_m, double& low, double& high) const {
+    const fire::VoxelGrid& grid = shared_->flame.grid();
+    const auto slope = [](double height_m, double run_m) {
+        return run_m > 0.0 ? height_m / run_m : std::copysign(std::numeric_limits<double>::infinity(), height_m);
+    };
+    double lowest = std::numeric_limits<double>::infinity();
+    high = -lowest;
     for (const PlaneColumn& c : columns_) {
-        if (slope <= static_cast<double>(c.horizon) || total_m > opaque_m) break;
-        const float z_in = start + rise * c.enter_m, z_out = start + rise * c.leave_m;
-        const auto k_begin = static_cast<float>(c.k_begin), k_end = static_cast<float>(c.k_end);
-        if (std::max(z_in, z_out) <= k_begin || std::min(z_in, z_out) >= k_end) continue;
-        // Part of the crossing between the column's lowest and highest flame, then voxel by voxel.
-        float r = c.enter_m;
-        const float wall = rise > 0.0F ? k_begin : k_end;
-        if (rise > 0.0F ? z_in < k_begin : z_in > k_end) r += std::abs(wall - z_in) * run_per_voxel;
-        int k = std::clamp(static_cast<int>(start + rise * r), c.k_begin, c.k_end - 1);
-        while (r < c.leave_m) {
-            const float edge = static_cast<float>(rise > 0.0F ? k + 1 : k);
-            const float until = std::min(c.leave_m, c.enter_m + std::abs(edge - z_in) * run_per_voxel);
-            const std::size_t voxel = FlamePlanes::voxel(c.first_voxel, k);
-            const float fill = flame.fill(voxel);
-            if (fill > 0.0F && until > r) {
-                const float length_m = fill * (until - r) * stretch;
-                const float here = flame.planck_position(voxel);
-                if (depth_m > 0.0F && std::abs(here - position) > kSamePosition) {
-                    flush(depth_m, position, w);
-                    depth_m = 0.0F;
-                }
-                depth_m += length_m;
-                position = depth_m > length_m ? position + (here - position) * length_m / depth_m : here;
-                total_m += length_m;
-            }
-            r = std::max(r, until);
-            k += rise > 0.0F ? 1 : -1;
-            if (k < c.k_begin || k >= c.k_end) break;
-        }
+        const double bottom_m = grid.corner_m.z + c.k_begin * grid.dz_m - from_m.z, enter_m = c.enter_m, leave_m = c.leave_m;
+        const double top_m = grid.corner_m.z + c.k_end * grid.dz_m - from_m.z;
+        high = std::max(high, slope(top_m, top_m > 0.0 ? enter_m : leave_m));
+        lowest =
+            std::min(lowest, std::max(slope(bottom_m, bottom_m > 0.0 ? leave_m : enter_m), static_cast<double>(c.horizon)));
     }
-    if (depth_m > 0.0F) flush(depth_m, position, w);
-}
-
-void ReceiverLight::flush(float depth_m, float planck_position, float weight) {
-    const PlanckRows::Lookup found = shared_->planck.at_position(planck_position);
-    const int nodes = shared_->nodes.padded_count();
-    kernels_->emit_weights(nodes, shared_->nodes.k_per_m().data(), depth_m, found.count, found.weight.data(), weight,
-                           tau_.data(), emitted_.data() + static_cast<std::ptrdiff_t>(found.row) * nodes);
+    low = std::max(low, lowest);
+    return low < high;
 }
 
 }  // namespace pyroscene::render

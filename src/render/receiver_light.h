@@ -5,7 +5,9 @@
 
 #include "base/constants.h"
 #include "render/absorption_nodes.h"
-#include "render/flame_planes.h"
+#include "render/flame_columns.h"
+#include "render/planck_series.h"
+#include "render/plane_trace.h"
 #include "render/scene.h"
 #include "render/spectral_kernels.h"
 
@@ -17,11 +19,11 @@ struct LightScene {
 
     const RenderScene& scene;
     GroundLightSettings settings;
-    PlanckRows planck;  ///< coarse: 0.2 % is enough for reflected light
+    PlanckSeries planck;
     AbsorptionNodes nodes;
-    FlamePlanes flame;
-    double least_k_per_m = 0.0;
-    bool rough = false;  ///< terrain is no horizontal plane
+    FlameColumns flame;
+    std::vector<float> voxels;  ///< of all bricks: {fill, reduced inverse temperature}
+    bool rough = false;         ///< terrain is no horizontal plane
 };
 
 /// A piece of ground that receives light: a map cell with its mean slope.
@@ -48,8 +50,8 @@ class ReceiverLight {
 public:
     explicit ReceiverLight(const LightScene& shared);
 
-    /// Fills `emitted`: [Planck row][absorption node] cosine-weighted solid angle [sr] with which the receiver sees emission of
-    /// each row; all rows together are pi minus what the flames let through.
+    /// Fills `emitted`: [absorption node][moment of the Planck series] cosine-weighted solid angle [sr] times T_moment; moment
+    /// 0 is pi minus what the flames let through.
     void compute(const Receiver& receiver);
     [[nodiscard]] const std::vector<float>& emitted() const noexcept { return emitted_; }
 
@@ -67,18 +69,19 @@ private:
     [[nodiscard]] bool is_near_flame(const Receiver& receiver) const;
     void compute_point(double x_m, double y_m, const Receiver& receiver, int planes_around, double weight);
     void find_arcs(double x_m, double y_m);
-    bool add_arc(const FlamePlanes::Box& box, double x_m, double y_m);
+    bool add_arc(const FlameColumns::Box& box, double x_m, double y_m);
     void merge_arcs();
     void trace_plane(Vec3 from_m, const Receiver& receiver, double azimuth, double weight);
+    void cross_columns(Vec3 from_m, double dx, double dy);
     void find_horizons(Vec3 from_m, double dx, double dy);
-    void trace_stratum(double z_m, double slope, double weight);
-    void flush(float depth_m, float planck_position, float weight);
+    [[nodiscard]] bool slopes_of_flame(Vec3 from_m, double& low, double& high) const;
 
     const LightScene* shared_;
     const SpectralKernels* kernels_;
     std::vector<Arc> arcs_;
     std::vector<PlaneColumn> columns_;
-    std::vector<float> tau_, emitted_;
+    std::vector<float> sums_;  ///< [node][moment][stratum]
+    std::vector<float> emitted_;
 };
 
 /// Slope of the terrain's skyline from a point into a horizontal direction, scanned cell by cell up to `reach_m`.

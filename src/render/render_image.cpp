@@ -38,9 +38,9 @@ RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request)
     image.bands = scene.spectral->band_count();
     const std::size_t pixels = static_cast<std::size_t>(request.samples) * static_cast<std::size_t>(request.lines);
     const std::size_t cube = pixels * static_cast<std::size_t>(image.bands);
-    make_large(image.radiance_W_m2_sr_um, cube);
+    image.radiance_W_m2_sr_um.resize(cube);
     if (request.terms) {
-        for (auto& term : image.terms) make_large(term, cube);
+        for (auto& term : image.terms) term.resize(cube);
     }
     for (auto* plane : {&image.hit_x_m, &image.hit_y_m, &image.hit_z_m}) plane->resize(pixels);
     for (auto* plane :
@@ -116,15 +116,8 @@ private:
         const std::size_t plane = index(image, image.lines, 0), first = index(image, line, begin);
         for (int q = 0; q < quantities_; ++q) {
             float* cube = q == 0 ? image.radiance_W_m2_sr_um.data() : image.terms[static_cast<std::size_t>(q - 1)].data();
-            transpose(buffer_.data() + static_cast<std::ptrdiff_t>(q) * bands_, quantities_ * bands_, end - begin, bands_,
-                      cube + first, plane);
-        }
-    }
-
-    static void transpose(const float* from, int from_stride, int pixels, int bands, float* to, std::size_t to_stride) {
-        for (int b = 0; b < bands; ++b) {
-            float* row = to + static_cast<std::size_t>(b) * to_stride;
-            for (int p = 0; p < pixels; ++p) row[p] = from[static_cast<std::ptrdiff_t>(p) * from_stride + b];
+            spectral_kernels().transpose(end - begin, bands_, buffer_.data() + static_cast<std::ptrdiff_t>(q) * bands_,
+                                         quantities_ * bands_, cube + first, static_cast<long>(plane));
         }
     }
 

@@ -2,9 +2,11 @@
 
 namespace pyroscene::render {
 
-/// The arithmetic over wavelengths, compiled twice: for any x86-64 and for AVX2 with FMA; `spectral_kernels()` picks once,
+/// The arithmetic over wavelengths (and over strata of a hemisphere), compiled twice: for any x86-64 and for AVX2 with FMA; `spectral_kernels()` picks once,
 /// at run time. Arrays are contiguous floats whose length `n` is a multiple of kLanes (pad them); no alignment is asked for.
 /// Both versions give the same numbers within rounding; one machine always uses one of them.
+struct PlaneTrace;
+
 struct SpectralKernels {
     static constexpr int kLanes = 8;
 
@@ -15,10 +17,6 @@ struct SpectralKernels {
     /// tau is kept above 1e-20: denormal numbers cost ten times as much.
     void (*emit)(int n, const float* k, float depth, const float* rows, int row_stride, int row_count, const float* weight,
                  float scale, float* tau, float* flame);
-    /// The same for `n` absorption coefficients k instead of wavelengths, the emission left as weights of Planck rows:
-    ///   sums[j][i] += scale weight[j] tau[i] (1 - exp(-k[i] depth)),   tau[i] *= exp(-k[i] depth);   row_count is 1 or 4
-    void (*emit_weights)(int n, const float* k, float depth, int row_count, const float* weight, float scale, float* tau,
-                         float* sums);
     /// out += sum_j weight[j] row_j
     void (*add_rows)(int n, const float* rows, int row_stride, int row_count, const float* weight, float* out);
     /// out += a x y
@@ -32,6 +30,10 @@ struct SpectralKernels {
                       const float* transmittance, float scale, const float* path, float* out);
     /// out[b] = sum_{i in [begin[b], begin[b + 1])} weight[i] x[i]; band by band without gaps, each with at least one i.
     void (*band_sums)(int bands, const int* begin, const float* weight, const float* x, float* out);
+    /// to[c][r] = from[r][c]
+    void (*transpose)(int rows, int cols, const float* from, int from_stride, float* to, long to_stride);
+    /// Light of the flame in one vertical plane, eight strata of elevation at a time: see PlaneTrace.
+    void (*trace_plane)(const PlaneTrace& plane);
 };
 
 const SpectralKernels& spectral_kernels() noexcept;

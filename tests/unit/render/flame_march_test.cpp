@@ -44,7 +44,7 @@ double length_in_box(Vec3 from, Vec3 to, Vec3 low, Vec3 high) {
 
 TEST(FlameMarch, LengthsAddUpToTheChord) {
     const auto field = make_flame_field(lattice(21, 19), full(21, 19, 17));
-    const FlameMarcher marcher(field);
+    const FlameColumns flame(field);
     const Vec3 low = field.grid.corner_m, high = low + Vec3{21 * 5.0, 19 * 4.0, 17 * 2.0};
     const RandomKey key{.seed = 11};
     for (std::uint64_t n = 0; n < 3000; ++n) {
@@ -57,7 +57,7 @@ TEST(FlameMarch, LengthsAddUpToTheChord) {
         if (n % 5 == 0) to = {from.x, from.y, -50.0};  // vertical
         if (n % 5 == 1) to.z = from.z;                 // horizontal
         double sum = 0.0, last = -1.0;
-        marcher.march(from, to, [&](float, float fill, double length_m) {
+        march_flame(flame, from, to, [&](float, float fill, double length_m) {
             sum += fill * length_m;
             last = length_m;
             return true;
@@ -71,7 +71,7 @@ TEST(FlameMarch, VisitsVoxelsFromTheStartOn) {
     const auto field = make_flame_field(lattice(16, 8), full(16, 8, 9));
     std::vector<float> seen;
     const double x = 100.0 + 5.0 * 3.5, y = 50.0 + 4.0 * 2.5;
-    FlameMarcher(field).march({x, y, 500.0}, {x, y, 0.0}, [&](float T_K, float, double length_m) {
+    march_flame(FlameColumns(field), {x, y, 500.0}, {x, y, 0.0}, [&](float T_K, float, double length_m) {
         EXPECT_NEAR(length_m, 2.0, 1e-9);
         seen.push_back(T_K);
         return true;
@@ -82,16 +82,16 @@ TEST(FlameMarch, VisitsVoxelsFromTheStartOn) {
 
 TEST(FlameMarch, StopsWhereTheSegmentEndsAndWhenAsked) {
     const auto field = make_flame_field(lattice(16, 8), full(16, 8, 9));
-    const FlameMarcher marcher(field);
+    const FlameColumns flame(field);
     double sum = 0.0;
     const auto add = [&](float, float, double length_m) {
         sum += length_m;
         return true;
     };
-    marcher.march({120.0, 60.0, 500.0}, {120.0, 60.0, 10.0 + 18.0 - 3.0}, add);  // ground inside the flame
+    march_flame(flame, {120.0, 60.0, 500.0}, {120.0, 60.0, 10.0 + 18.0 - 3.0}, add);  // ground inside the flame
     EXPECT_NEAR(sum, 3.0, 1e-9);
     int visits = 0;
-    marcher.march({120.0, 60.0, 500.0}, {120.0, 60.0, 0.0}, [&](float, float, double) { return ++visits < 4; });
+    march_flame(flame, {120.0, 60.0, 500.0}, {120.0, 60.0, 0.0}, [&](float, float, double) { return ++visits < 4; });
     EXPECT_EQ(visits, 4);
 }
 
@@ -101,7 +101,7 @@ TEST(FlameMarch, GapsAreSkipped) {
     const auto field =
         make_flame_field({.corner_m = {}, .nx = 100, .ny = 100, .dx_m = 1.0, .dy_m = 1.0, .dz_m = 1.0}, voxels);
     std::vector<float> fills;
-    FlameMarcher(field).march({99.9, 99.9, 40.9}, {-0.1, -0.1, -0.1}, [&](float, float fill, double) {
+    march_flame(FlameColumns(field), {99.9, 99.9, 40.9}, {-0.1, -0.1, -0.1}, [&](float, float fill, double) {
         fills.push_back(fill);
         return true;
     });
@@ -111,7 +111,7 @@ TEST(FlameMarch, GapsAreSkipped) {
 TEST(FlameMarch, EmptyFieldIsNothing) {
     const fire::FlameField field;
     int visits = 0;
-    FlameMarcher(field).march({0, 0, 10}, {0, 0, 0}, [&](float, float, double) { return ++visits > 0; });
+    march_flame(FlameColumns(field), {0, 0, 10}, {0, 0, 0}, [&](float, float, double) { return ++visits > 0; });
     EXPECT_EQ(visits, 0);
 }
 
