@@ -70,8 +70,8 @@ fire::FlameField flame_field(const W0Scene::Options& options, Vec3 origin_m) {
     std::vector<fire::FlameVoxel> fine;
     for (const fire::FlameVoxel& v : voxels(40.0 * options.columns_per_cell)) {
         for (int n = 0; n < split * split * split; ++n) {
-            fine.push_back({v.i * split + n % split, v.j * split + n / split % split, v.k * split + n / (split * split), v.fill,
-                            v.temperature_K});
+            fine.push_back({v.i * split + n % split, v.j * split + n / split % split, v.k * split + n / (split * split),
+                            v.fill, v.temperature_K});
         }
     }
     return make_flame_field(grid, fine);

@@ -19,9 +19,9 @@ class W0Scene {
 public:
     struct Options {
         std::vector<double> lambda_um{1.35, 4.0, 9.5};
-        double reflectance = 0.0;   ///< of the ground, for flame light; its emissivity stays 1 as in the peers
-        int voxel_split = 1;        ///< every voxel cut into this many along each axis: the same field, more voxels
-        int columns_per_cell = 1;   ///< > 1 repeats the ring inwards: more occupied voxels
+        double reflectance = 0.0;  ///< of the ground, for flame light; its emissivity stays 1 as in the peers
+        int voxel_split = 1;       ///< every voxel cut into this many along each axis: the same field, more voxels
+        int columns_per_cell = 1;  ///< > 1 repeats the ring inwards: more occupied voxels
         bool flame = true;
         bool grey = true;
     };

@@ -1,0 +1,120 @@
+// Single parts of the renderer with Google Benchmark, printed as rows of the table of scripts/bench.sh.
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "base/random.h"
+#include "bench/w0_scene.h"
+#include "render/flame_march.h"
+#include "render/spectral_kernels.h"
+
+namespace pyroscene::bench {
+namespace {
+
+/// One piece of flame with an absorption of its own at every wavelength: one exp and the emission of four Planck rows.
+void emit(benchmark::State& state) {
+    const int n = render::padded(static_cast<int>(state.range(0)));
+    const auto size = static_cast<std::size_t>(n);
+    std::vector<float> k(size, 0.1F), rows(4 * size, 1000.0F), tau(size, 1.0F), flame(size, 0.0F);
+    for (std::size_t i = 0; i < size; ++i) k[i] += 1e-3F * static_cast<float>(i);
+    const std::array<float, 4> weight{-0.06F, 0.56F, 0.56F, -0.06F};
+    const int count = static_cast<int>(state.range(1));
+    for (auto _ : state) {
+        render::spectral_kernels().emit(n, k.data(), 0.01F, rows.data(), n, count, weight.data(), 1.0F, tau.data(),
+                                        flame.data());
+        benchmark::DoNotOptimize(flame.data());
+        if (tau[0] < 1e-3F) std::fill(tau.begin(), tau.end(), 1.0F);
+    }
+    state.counters["items"] = static_cast<double>(state.range(0));
+    state.SetLabel("ns per voxel and wavelength");
+}
+BENCHMARK(emit)->Args({224, 1})->Args({224, 4})->Args({36, 4});
+
+/// The march alone, through all flames of W0.
+void march(benchmark::State& state) {
+    const W0Scene scene({});
+    const render::FlameColumns flame(scene.flame());
+    const W0Camera camera;
+    double voxels = 0.0;
+    for (auto _ : state) {
+        double sum_m = 0.0;
+        voxels = 0.0;
+        for (int line = 0; line < camera.lines; line += 8) {
+            for (int sample = 0; sample < camera.samples; ++sample) {
+                const render::SceneRay ray = camera.ray(line, sample);
+                render::march_flame(flame, ray.start_m, ray.end_m, [&](float, float, double length_m) {
+                    sum_m += length_m;
+                    voxels += 1.0;
+                    return true;
+                });
+            }
+        }
+        benchmark::DoNotOptimize(sum_m);
+    }
+    state.counters["items"] = camera.samples * camera.lines / 8.0;
+    state.SetLabel(
+        fmt::format("ns per ray ({:.1f} burning voxels on average)", voxels / (camera.samples * camera.lines / 8.0)));
+}
+BENCHMARK(march);
+
+/// Sight lines to rough terrain of 512 x 512 cells.
+void terrain(benchmark::State& state) {
+    MapGrid grid;
+    grid.cols = grid.rows = 512;
+    grid.cell_m = 30.0;
+    grid.west_m = 700000.0;
+    grid.north_m = 5200000.0;
+    Raster<float> height(grid, "height", "m");
+    for (int r = 0; r < 512; ++r) {
+        for (int c = 0; c < 512; ++c)
+            height.at(r, c) = static_cast<float>(1500.0 + 300.0 * std::sin(r / 40.0) * std::cos(c / 30.0));
+    }
+    const render::TerrainMesh mesh(height, {grid.west_m, grid.south_m(), 0.0});
+    constexpr int kRays = 4096;
+    const double tilt = static_cast<double>(state.range(0)) * 3.14159265358979 / 180.0;
+    for (auto _ : state) {
+        double sum = 0.0;
+        for (std::uint64_t i = 0; i < kRays; ++i) {
+            const Vec3 ground{5000.0 + 3.0 * static_cast<double>(i % 64), 5000.0 + 3.0 * static_cast<double>(i / 64),
+                              1500.0};
+            const Vec3 up{0.0, -std::sin(tilt), std::cos(tilt)};
+            const auto hit = mesh.intersect(ground + (3000.0 / up.z) * up, ground - (1000.0 / up.z) * up);
+            sum += hit ? hit->distance_m : 0.0;
+        }
+        benchmark::DoNotOptimize(sum);
+    }
+    state.counters["items"] = kRays;
+    state.SetLabel(fmt::format("ns per sight line to rough terrain, {} degrees off nadir", state.range(0)));
+}
+BENCHMARK(terrain)->Arg(0)->Arg(60);
+
+/// One row of the table per benchmark.
+class TableReporter : public benchmark::BenchmarkReporter {
+public:
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs) {
+            const auto items = run.counters.find("items");
+            const double per_item = run.GetAdjustedCPUTime() / (items != run.counters.end() ? items->second.value : 1.0);
+            fmt::print("| {} | {:.3g} {} |  |  |  |  |\n", run.benchmark_name(), per_item, run.report_label);
+            std::fflush(stdout);
+        }
+    }
+};
+
+}  // namespace
+}  // namespace pyroscene::bench
+
+int main(int argc, char** argv) {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    benchmark::Initialize(&argc, argv);
+    pyroscene::bench::TableReporter reporter;
+    benchmark::RunSpecifiedBenchmarks(&reporter);
+    return 0;
+}

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Builds the benchmarks and prints one markdown table: scenes B1 to B3 against the baseline, the growth table, single
+# kernels, and the thesis case from the command line. Figures hold as ratios of commands run alternately on one machine.
+#   scripts/bench.sh [pairs]        pairs of alternate runs (default 3)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+pairs=${1:-3}
+build=build/bench
+
+scripts/setup.sh build bench
+log=$(mktemp)
+{
+    cmake --preset bench
+    cmake --build --preset bench -j"${PYROSCENE_JOBS:-$(nproc)}"
+} > "$log" 2>&1 || { tail -40 "$log" >&2; exit 1; }
+rm -f "$log"
+
+echo "Machine: $(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -1), $(nproc) cores, load $(cut -d' ' -f1 /proc/loadavg);" \
+     "$("${CXX:-c++}" --version | head -1); commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown)"
+echo
+echo "| case | measured | compared with | ratio | limits | condition on the result |"
+echo "|---|---|---|---|---|---|"
+"$build/bench/bench_frames" --pairs "$pairs"
+"$build/bench/bench_kernels"
+
+# The thesis case end to end: rasters in, georeferenced products out.
+cli="$build/src/cli/pyroscene"
+scenario=scenarios/thesis_grassfire/scenario.yaml
+if [[ ! -x "$cli" || ! -f "$scenario" ]]; then
+    echo "thesis case: $cli or $scenario is missing" >&2
+    exit 1
+fi
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+for threads in 1 2; do
+    cpu=() wall=() peak=0
+    for ((run = 0; run < pairs; ++run)); do
+        rm -rf "$out/run"
+        read -r user system real kilobytes < <({ /usr/bin/time -f '%U %S %e %M' "$cli" run "$scenario" -o "$out/run" --threads "$threads" \
+            -q > "$out/log" 2>&1; } 2>&1 || true; tail -1 "$out/log")
+        cpu+=("$(awk "BEGIN { print $user + $system }")") wall+=("$real") peak=$((kilobytes / 1024))
+    done
+    median() { printf '%s\n' "$@" | sort -g | sed -n "$(( ($# + 1) / 2 ))p"; }
+    echo "| B2t thesis case end to end, $threads thread(s) | $(median "${cpu[@]}") s CPU, $(median "${wall[@]}") s wall, $peak MB |  |  |" \
+         "P 3.6 s, G 1 s | |"
+done
