@@ -15,7 +15,7 @@ build_packages=(
     libgtest-dev # looked for whenever CMake configures with tests on
 )
 test_packages=(python3-gdal) # GDAL's own validator of Cloud-Optimized GeoTIFFs
-bench_packages=(libbenchmark-dev)
+bench_packages=(libbenchmark-dev time)
 lint_packages=(clang-format clang-tidy)
 
 die() {
