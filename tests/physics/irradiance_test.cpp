@@ -59,7 +59,7 @@ TEST(GroundLight, SlopesTurnedToTheWallReceiveMore) {
 }
 
 TEST(GroundLight, FarThinFlameFollowsTheInverseSquare) {
-    // One voxel, optically thin: it radiates k V B into every direction; on the ground E = I cos(theta) / r^2 (errata E7).
+    // One voxel, optically thin: it radiates k V B into every direction; on the ground E = I cos(theta) / r^2.
     TestScene scene({.cols = 60, .rows = 60, .cell_m = 5.0, .ground_K = 300.0, .absorption_per_m = 0.01});
     const std::vector<fire::FlameVoxel> one{{0, 0, 0, 1.0F, 1000.0F}};
     scene.set_flame({.corner_m = {150.0, 150.0, 20.0}, .nx = 1, .ny = 1, .dx_m = 4.0, .dy_m = 4.0, .dz_m = 4.0}, one);

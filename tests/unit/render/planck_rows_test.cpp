@@ -47,7 +47,7 @@ TEST(PlanckRows, OneTemperatureNeedsNoNodes) {
     const std::array<double, 1> lambda_um{4.0}, exact{1100.0};
     const PlanckRows rows(lambda_um, 8, 1100.0, 1100.0, exact);
     EXPECT_EQ(rows.row_count(), 1);
-    EXPECT_NEAR(interpolated(rows, 1100.0, 0), 4595.5, 0.05);  // thesis-checks: B(4.0, 1100 K)
+    EXPECT_NEAR(interpolated(rows, 1100.0, 0), 4595.5, 0.05);  // CODATA constants, thesis eq 2.4
 }
 
 }  // namespace
