@@ -229,6 +229,20 @@ DatasetPtr memory_dataset(const OutputRaster& raster, const T* pixels, GDALDataT
     return dataset;
 }
 
+/// Overviews of the source in memory, half the size each down to one tile. Left to itself the COG driver keeps them in a
+/// compressed temporary file, which takes four times as long (and from 128 bands on, twenty times: it then unpacks a tile
+/// anew for every band).
+void build_overviews(GDALDataset& source, const OutputRaster& raster, int tile, const std::string& subject,
+                     const GdalErrors& errors) {
+    std::vector<int> factors;
+    for (int factor = 2; std::max(raster.cols, raster.rows) * 2 > tile * factor; factor *= 2) factors.push_back(factor);
+    if (factors.empty()) return;
+    const char* method = raster.classes ? "NEAREST" : "AVERAGE";
+    if (GDALBuildOverviews(&source, method, static_cast<int>(factors.size()), factors.data(), 0, nullptr, nullptr,
+                           nullptr) != CE_None)
+        throw runtime_error(subject, "overviews cannot be made: " + errors.message());
+}
+
 }  // namespace
 
 void write_geotiff(const std::filesystem::path& path, const OutputRaster& raster, std::span<const float> pixels) {
@@ -257,9 +271,10 @@ void write_cog(const std::filesystem::path& path, const OutputRaster& raster, st
     const CogTags tags(tags_with_statistics(raster, pixels, subject));
     for (const Tag& tag : tags.before_writing())
         owner_of(*source, tag).SetMetadataItem(tag.key.c_str(), tag.value.c_str(), tag.domain.c_str());
+    const int tile = cog_tile(raster);
+    build_overviews(*source, raster, tile, subject, errors);
     Options options;
-    options.set("BLOCKSIZE", std::to_string(cog_tile(raster)))
-        .set("OVERVIEW_RESAMPLING", raster.classes ? "NEAREST" : "AVERAGE");
+    options.set("BLOCKSIZE", std::to_string(tile)).set("OVERVIEWS", "FORCE_USE_EXISTING");
     options.set("PREDICTOR", raster.classes ? "NO" : "YES").set("BIGTIFF", "IF_SAFER");
     set_compression(options, raster, "LEVEL");
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("COG");
