@@ -11,6 +11,7 @@ namespace pyroscene::bench {
 namespace {
 
 constexpr int kDirections = 64;
+constexpr int kLayers = 64;
 
 /// Dense array of the field's temperatures.
 std::vector<float> dense_temperatures(const fire::FlameField& field, int nz) {
@@ -80,7 +81,7 @@ void traverse(Vec3 from, Vec3 direction, int nx, int ny, int nz, double limit, V
 Baseline::Baseline(const W0Scene& scene, double reflectance) : reflectance_(reflectance) {
     const fire::FlameField& field = scene.flame();
     const render::RenderScene s = scene.scene();
-    nx_ = field.grid.nx, ny_ = field.grid.ny, nz_ = 64;
+    nx_ = field.grid.nx, ny_ = field.grid.ny, nz_ = kLayers;
     dx_m_ = field.grid.dx_m, dz_m_ = field.grid.dz_m;
     corner_m_ = field.grid.corner_m;
     voxel_K_ = dense_temperatures(field, nz_);
@@ -179,35 +180,31 @@ BaselineResult Baseline::render(const W0Camera& camera, bool reflected_light) co
     return result;
 }
 
-double exact_radiance(const W0Scene& scene, const render::SceneRay& ray, double lambda_um, double reflectance) {
-    const fire::FlameField& field = scene.flame();
-    const std::vector<float>* dense = nullptr;
-    static thread_local const W0Scene* known = nullptr;
-    static thread_local std::vector<float> voxels;
-    if (known != &scene) {
-        voxels = dense_temperatures(field, 64);
-        known = &scene;
-    }
-    dense = &voxels;
-    const Vec3 direction = normalized(ray.end_m - ray.start_m), from = ray.start_m - field.grid.corner_m;
-    const fire::VoxelGrid& g = field.grid;
+ExactMarch::ExactMarch(const W0Scene& scene, double reflectance)
+    : scene_(&scene),
+      reflectance_(reflectance),
+      voxel_K_(dense_temperatures(scene.flame(), kLayers * scene.voxel_split())) {}
+
+double ExactMarch::radiance(const render::SceneRay& ray, double lambda_um) const {
+    const fire::VoxelGrid& g = scene_->flame().grid;
+    const Vec3 direction = normalized(ray.end_m - ray.start_m), from = ray.start_m - g.corner_m;
+    const double absorption_per_m = scene_->scene().optics->flame_absorption_per_m.front();
     double tau = 1.0, radiance = 0.0;
     traverse({from.x / g.dx_m, from.y / g.dy_m, from.z / g.dz_m},
-             {direction.x / g.dx_m, direction.y / g.dy_m, direction.z / g.dz_m}, g.nx, g.ny, 64, 1e9,
-             [&](int i, int j, int k, double length_m) {
-                 const float T_K = (*dense)[static_cast<std::size_t>((k * g.ny + j) * g.nx + i)];
+             {direction.x / g.dx_m, direction.y / g.dy_m, direction.z / g.dz_m}, g.nx, g.ny, kLayers * scene_->voxel_split(),
+             1e9, [&](int i, int j, int k, double length_m) {
+                 const float T_K = voxel_K_[static_cast<std::size_t>((k * g.ny + j) * g.nx + i)];
                  if (T_K == 0.0F) return true;
-                 const double opacity = -std::expm1(-static_cast<double>(0.3F) * length_m);
+                 const double opacity = -std::expm1(-absorption_per_m * length_m);
                  radiance += tau * opacity * radiometry::planck_radiance(lambda_um, T_K);
                  tau *= 1.0 - opacity;
                  return true;
              });
-    const Vec3 ground = ray.start_m - (ray.start_m.z / direction.z) * direction;
-    const MapGrid& grid = scene.surface().grid;
-    const Vec3 origin = scene.scene().scene_origin_m;
-    const float T_K = scene.surface().base_temperature_K[grid.index(static_cast<int>(grid.row_at(ground.y + origin.y)),
-                                                                    static_cast<int>(grid.col_at(ground.x + origin.x)))];
-    return radiance + tau * (1.0 - reflectance) * radiometry::planck_radiance(lambda_um, T_K);
+    const Vec3 ground = ray.start_m - (ray.start_m.z / direction.z) * direction + scene_->scene().scene_origin_m;
+    const MapGrid& grid = scene_->surface().grid;
+    const std::size_t cell = grid.index(static_cast<int>(grid.row_at(ground.y)), static_cast<int>(grid.col_at(ground.x)));
+    return radiance +
+           tau * (1.0 - reflectance_) * radiometry::planck_radiance(lambda_um, scene_->surface().base_temperature_K[cell]);
 }
 
 }  // namespace pyroscene::bench

@@ -39,7 +39,16 @@ private:
     std::vector<float> planck_;  ///< [kelvin][band]
 };
 
-/// The same image voxel by voxel in double precision with Planck's law itself: what both must agree with.
-double exact_radiance(const W0Scene& scene, const render::SceneRay& ray, double lambda_um, double reflectance);
+/// Single rays voxel by voxel in double precision with Planck's law itself: what both must agree with. Needs the scene.
+class ExactMarch {
+public:
+    ExactMarch(const W0Scene& scene, double reflectance);
+    [[nodiscard]] double radiance(const render::SceneRay& ray, double lambda_um) const;
+
+private:
+    const W0Scene* scene_;
+    double reflectance_;
+    std::vector<float> voxel_K_;
+};
 
 }  // namespace pyroscene::bench

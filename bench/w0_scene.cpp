@@ -79,7 +79,7 @@ fire::FlameField flame_field(const W0Scene::Options& options, Vec3 origin_m) {
 
 }  // namespace
 
-W0Scene::W0Scene(const Options& options) {
+W0Scene::W0Scene(const Options& options) : voxel_split_(options.voxel_split) {
     MapGrid grid;
     grid.cols = grid.rows = kCells;
     grid.cell_m = kCell_m;

@@ -19,7 +19,7 @@ class W0Scene {
 public:
     struct Options {
         std::vector<double> lambda_um{1.35, 4.0, 9.5};
-        double reflectance = 0.0;  ///< of the ground, for flame light; its emissivity stays 1 as in the peers
+        double reflectance = 0.0;  ///< of the ground; its emissivity is 1 minus this
         int voxel_split = 1;       ///< every voxel cut into this many along each axis: the same field, more voxels
         int columns_per_cell = 1;  ///< > 1 repeats the ring inwards: more occupied voxels
         bool flame = true;
@@ -30,9 +30,11 @@ public:
     [[nodiscard]] render::RenderScene scene() const;
     [[nodiscard]] const fire::FlameField& flame() const noexcept { return flame_; }
     [[nodiscard]] const fire::SurfaceField& surface() const noexcept { return surface_; }
+    [[nodiscard]] int voxel_split() const noexcept { return voxel_split_; }
     [[nodiscard]] const std::vector<double>& lambda_um() const noexcept { return optics_.lambda_um; }
 
 private:
+    int voxel_split_ = 1;
     Vec3 origin_m_{2000.0, 2000.0, 0.0};
     std::unique_ptr<render::TerrainMesh> terrain_;
     fire::SurfaceField surface_;
