@@ -203,6 +203,21 @@ std::int64_t hide_unseen(OrthoLookup& lookup, std::span<const float> terrain_z_m
     return removed;
 }
 
+std::vector<float> heights_on(const MapGrid& grid, const Raster<float>& terrain_m) {
+    const MapGrid& from = terrain_m.grid;
+    std::vector<float> out(grid.size(), kNoData);
+    for (int row = 0; row < grid.rows; ++row) {
+        const double y = from.row_at(grid.y_centre_m(row));
+        if (!(y >= 0.0 && y <= from.rows)) continue;
+        for (int col = 0; col < grid.cols; ++col) {
+            const double x = from.col_at(grid.x_centre_m(col));
+            if (!(x >= 0.0 && x <= from.cols)) continue;
+            out[grid.index(row, col)] = bilinear(terrain_m.values, from.cols, from.rows, x, y);
+        }
+    }
+    return out;
+}
+
 std::vector<float> ortho_resample(const OrthoLookup& lookup, int samples, int lines, std::span<const float> plane,
                                   bool nearest) {
     check_lengths(samples, lines, {plane.size()});

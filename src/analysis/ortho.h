@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/map_grid.h"
+#include "base/raster.h"
 
 namespace pyroscene::analysis {
 
@@ -29,6 +30,10 @@ OrthoLookup ortho_lookup(const MapGrid& grid, int samples, int lines, std::span<
 /// the sensor. \param terrain_z_m heights on the lookup's grid (same reference as z_m); NaN hides nothing
 /// \return number of cells removed
 std::int64_t hide_unseen(OrthoLookup& lookup, std::span<const float> terrain_z_m, double tolerance_m);
+
+/// Heights at the cell centres of a grid, bilinear between the cell centres of `terrain_m` (both in one CRS); NaN outside it
+/// and where all four neighbours have no height. What hide_unseen() compares with.
+std::vector<float> heights_on(const MapGrid& grid, const Raster<float>& terrain_m);
 
 /// Resamples one plane [line][sample] onto the lookup's grid: bilinear over valid pixels, or nearest. NaN where nothing is
 /// seen.

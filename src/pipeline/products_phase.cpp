@@ -170,6 +170,16 @@ void write_ortho(const ProductJob& job, const Rendered& r, const Product& produc
     gis::write_cog(job.files.file("ortho_" + product.stem), out, std::span<const float>(pixels));
 }
 
+/// Where each map cell appears in the image; cells that terrain hides from the camera appear nowhere.
+analysis::OrthoLookup visible_ground(const ProductJob& job, const Rendered& r, const MapGrid& grid, RunReport& report) {
+    auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight));
+    // Heights between two pixels of smooth ground differ from the terrain by less than a pixel on any slope a camera sees.
+    const double tolerance_m = 1.5 * r.gsd_m + 1.0;
+    const auto hidden = analysis::hide_unseen(lookup, analysis::heights_on(grid, job.inputs.terrain_m), tolerance_m);
+    report.count("hidden_ortho_cells/" + job.acquisition.id + job.files.suffix, hidden);
+    return lookup;
+}
+
 /// One point per pixel with flame or front in it.
 void write_fire_pixels(const ProductJob& job, const Rendered& r, const Product& frp) {
     using Json = nlohmann::ordered_json;
@@ -329,7 +339,7 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
     if (wanted.ortho) {
         timer.emplace(report, "products/ortho");
         grid = analysis::ortho_grid(job.inputs.grid, ortho_cell_m(r.gsd_m), r.x_m, r.y_m);
-        const auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight));
+        const auto lookup = visible_ground(job, r, grid, report);
         stage(0.4);
         write_ortho(job, r, radiance_product(r), lookup);
         for (std::size_t i = 0; i < made.size(); ++i) {

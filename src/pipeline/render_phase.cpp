@@ -153,8 +153,8 @@ void write_geolocation(const GroupJob& job, const std::vector<double>& planes) {
 
 /// What the detector makes of the noise-free image.
 struct Measured {
-    std::vector<float> radiance_W_m2_sr_um;  ///< [band][line][sample]
-    std::vector<std::uint8_t> saturated;     ///< same shape, 1 = clipped
+    Buffer<float> radiance_W_m2_sr_um;    ///< [band][line][sample]
+    std::vector<std::uint8_t> saturated;  ///< same shape, 1 = clipped
 };
 
 Measured measure(const GroupJob& job, const RadianceImage& image, RunReport& report) {
@@ -187,7 +187,7 @@ void write_truth(const GroupJob& job, const RadianceImage& image, const std::vec
     auto out = sensor_raster(job, {});
     out.compression = gis::Compression::Zstd;  // the largest file; read by this program and by GDAL, hardly by others
     const std::size_t n = image.coverage.size();
-    std::vector<float> pixels;
+    Buffer<float> pixels;
     pixels.reserve(n * (10 + job.bands.size() * (2 + render::kTermCount)));
     const auto add = [&](gis::OutputBand band, const auto& plane) {
         out.bands.push_back(std::move(band));
@@ -281,8 +281,8 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
         std::size_t k = 0;
         for (int sample = begin; sample < end; ++sample)
             for (const auto& [dx, dy] : pattern.offset) {
-                const auto chord = chords.at(sample + 0.5 + dx, line + 0.5 + dy);
-                out[k++] = {chord.top_m, chord.bottom_m};
+                const auto ends = chords.ends(sample + 0.5 + dx, line + 0.5 + dy);
+                out[k++] = {ends.top_m, ends.bottom_m};
             }
     };
     const double sun_azimuth_rad = sun.centre().azimuth_rad;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/buffer.h"
 #include "base/raster.h"
 #include "base/report.h"
 #include "base/vec3.h"
@@ -108,10 +109,10 @@ struct ImageRequest {
 /// What one image holds before the detector. Planes are [line][sample], cubes [band][line][sample]; NaN where nothing is hit.
 struct RadianceImage {
     int samples = 0, lines = 0, bands = 0;
-    std::vector<float> radiance_W_m2_sr_um;            ///< [band][line][sample], noise-free
-    std::array<std::vector<float>, kTermCount> terms;  ///< each as radiance, empty when not asked for
-    std::vector<double> hit_x_m, hit_y_m, hit_z_m;     ///< PSF-weighted mean ground point, scene frame
-    std::vector<float> coverage;                       ///< weight of sub-rays that met the scene, 0..1
+    Buffer<float> radiance_W_m2_sr_um;              ///< [band][line][sample], noise-free
+    std::array<Buffer<float>, kTermCount> terms;    ///< each as radiance, empty when not asked for
+    std::vector<double> hit_x_m, hit_y_m, hit_z_m;  ///< PSF-weighted mean ground point, scene frame
+    std::vector<float> coverage;                    ///< weight of sub-rays that met the scene, 0..1
     std::vector<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum = 1
     std::vector<float> flame_temperature_K;    ///< emission-weighted, NaN without flame
     std::vector<float> ground_temperature_K;   ///< (mean T^4)^(1/4) of the ground seen

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -68,7 +69,7 @@ render::ImageRequest nadir_request(int samples, int lines) {
     return request;
 }
 
-bool same_bytes(const std::vector<float>& a, const std::vector<float>& b) {
+bool same_bytes(std::span<const float> a, std::span<const float> b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 

@@ -80,7 +80,8 @@ render::ImageRequest rays_request(std::vector<render::SceneRay> rays, bool terms
 }
 
 std::vector<float> trace(const TestScene& scene, const render::SceneRay& ray, const render::GroundIrradiance* light) {
-    return render::render_image(scene.scene(), light, rays_request({ray})).radiance_W_m2_sr_um;
+    const auto image = render::render_image(scene.scene(), light, rays_request({ray}));
+    return {image.radiance_W_m2_sr_um.begin(), image.radiance_W_m2_sr_um.end()};
 }
 
 }  // namespace pyroscene::test

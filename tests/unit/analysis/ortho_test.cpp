@@ -180,6 +180,23 @@ TEST(Ortho, GroundBehindARidgeCanBeHidden) {
     EXPECT_TRUE(std::isnan(ortho_resample(lookup, 100, 4, std::vector<float>(400, 1.0f), true)[grid.index(1, 60)]));
 }
 
+TEST(Ortho, HeightsOnAFinerGridAreBilinear) {
+    MapGrid coarse;
+    coarse.cols = 4, coarse.rows = 3, coarse.cell_m = 10.0, coarse.west_m = 100.0, coarse.north_m = 50.0;
+    Raster<float> terrain(coarse, "height", "m", 0.0F);
+    for (int row = 0; row < 3; ++row)
+        for (int col = 0; col < 4; ++col)
+            terrain.values[coarse.index(row, col)] =
+                static_cast<float>(2.0 * coarse.x_centre_m(col) - 3.0 * coarse.y_centre_m(row));
+    MapGrid fine = coarse;
+    fine.cols = 12, fine.rows = 8, fine.cell_m = 4.0, fine.west_m = 96.0;
+    const auto heights = heights_on(fine, terrain);
+    EXPECT_TRUE(std::isnan(heights[fine.index(4, 0)]));  // west of the terrain
+    for (int row = 2; row < 6; ++row)
+        for (int col = 3; col < 9; ++col)
+            EXPECT_NEAR(heights[fine.index(row, col)], 2.0 * fine.x_centre_m(col) - 3.0 * fine.y_centre_m(row), 1e-3);
+}
+
 TEST(OrthoResample, AveragesOnlyValidPixels) {
     OrthoLookup lookup{grid_of(4, 1, 0, 0, 1), {1.0f, 1.5f, 0.1f, static_cast<float>(kNaN)}, {1.0f, 0.5f, 0.1f, 1.0f}, {}};
     const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace pyroscene {
+
+/// std::allocator whose elements resize() leaves uninitialised.
+template <class T>
+struct UninitialisedAllocator : std::allocator<T> {
+    UninitialisedAllocator() = default;
+    template <class U>
+    UninitialisedAllocator(const UninitialisedAllocator<U>&) noexcept {}
+    template <class U>
+    struct rebind {
+        using other = UninitialisedAllocator<U>;
+    };
+
+    template <class U>
+    void construct(U* at) noexcept {
+        ::new (static_cast<void*>(at)) U;
+    }
+    template <class U, class... Args>
+    void construct(U* at, Args&&... args) {
+        ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
+    }
+};
+
+/// A vector for large arrays that several threads fill: resize(n) touches nothing, so that each page is first written, and
+/// paid for, by the thread that fills it. Give a value (`resize(n, 0.0F)`) where not every element is written.
+/// Pages stay small on purpose: planes of an image lie a power of two times a few kilobytes apart, and in one huge page
+/// the same pixel of all of them would fall into one set of the second-level cache (measured: two times slower).
+template <class T>
+using Buffer = std::vector<T, UninitialisedAllocator<T>>;
+
+}  // namespace pyroscene
