@@ -23,6 +23,7 @@ BEGIN {
 
     # module -> third-party headers (regular expression) its .cpp files may include; fmt is free for all, headers get none
     foreign["gis"]      = "^(gdal|ogr|cpl_|proj|GeographicLib/)"
+    foreign["fire"]     = "^(nlopt|Eigen/|unsupported/Eigen/)"
     foreign["config"]   = "^yaml-cpp/"
     foreign["render"]   = "^(embree3/|tbb/|oneapi/tbb)"
     foreign["pipeline"] = "^(tbb/|oneapi/tbb|opencv2/|nlohmann/|openssl/)"

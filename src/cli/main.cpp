@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "cli/calc.h"
+#include "cli/fit_scar_command.h"
 #include "cli/progress.h"
 #include "cli/sensors_command.h"
 #include "pipeline/run.h"
@@ -34,6 +35,7 @@ struct Arguments {
     std::string scenario, output;
     std::vector<std::string> acquisitions, calc_name;
     std::string sensor;
+    cli::FitScarOptions fit_scar;
     int threads = 0;
     bool force = false, quiet = false, json = false, print_schema = false;
     int verbose = 0;
@@ -109,9 +111,31 @@ int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line)
             cli::list_sensors(a.json);
         else
             cli::show_sensor(a.sensor, a.json);
+    } else if (app.got_subcommand("fit-scar")) {
+        auto options = a.fit_scar;
+        options.quiet = a.quiet;
+        cli::fit_scar_command(options);
     } else if (app.got_subcommand("calc"))
         cli::run_calc(a.calc_name);
     return kDone;
+}
+
+void add_fit_scar(CLI::App& app, cli::FitScarOptions& o) {
+    auto* sub = app.add_subcommand("fit-scar", "cooling curve of a burn scar from a time-temperature record");
+    sub->add_option("CSV", o.csv, "table with time_s and temperature_K or temperature_C (also t_s, T_K, T_C)")->required();
+    sub->add_option("--algorithm", o.algorithm, "how to search")
+        ->check(CLI::IsMember(cli::fit_algorithm_names()))
+        ->capture_default_str();
+    sub->add_option("--model", o.model, "what to fit")->check(CLI::IsMember(cli::scar_model_names()))->capture_default_str();
+    sub->add_option("--start", o.start,
+                    "first guess: amplitude1 time_constant1 [amplitude2 time_constant2] floor; the floor in the unit of the "
+                    "table (default: from the record)")
+        ->delimiter(',');
+    sub->add_option("--maximum-evaluations", o.maximum_evaluations, "give up after so many")
+        ->check(CLI::Range(1, 100000000))
+        ->capture_default_str();
+    sub->add_option("-o,--output", o.output, "prefix of .png, .json and .yaml (default: out/<name of the table>)");
+    sub->footer("Example: pyroscene fit-scar record.csv --algorithm nelder-mead -o out/record");
 }
 
 /// The words after `calc`. Its options are those of the formula, so they are not the parser's business (but --help is).
@@ -147,6 +171,7 @@ int main(int argc, char** argv) {
     check->add_option("SCENARIO", a.scenario, "scenario file (YAML)");
     check->add_flag("--print-schema", a.print_schema, "print the JSON Schema of scenario files");
     check->footer("Example: pyroscene check scenarios/lolo_peak/scenario.yaml");
+    add_fit_scar(app, a.fit_scar);
     auto* sensor = app.add_subcommand("sensors", "list the sensors, or show one in full");
     sensor->add_option("ID", a.sensor, "sensor id, or the path of a sensor file");
     sensor->add_flag("--json", a.json, "machine-readable output");

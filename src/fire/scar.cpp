@@ -2,8 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "base/constants.h"
 
 namespace pyroscene::fire {
+namespace {
+
+constexpr ScarModelRow kModels[] = {
+    {ScarModel::DoubleExponential, "double_exponential", 2, ScarCooling{}},
+    {ScarModel::SingleExponential, "single_exponential", 1,
+     ScarCooling{.amplitude1_K = 800.0 - 34.0,
+                 .time_constant1_s = 100.0,
+                 .amplitude2_K = 0.0,
+                 .time_constant2_s = 100.0,
+                 .floor_K = kZeroCelsius_K + 34.0}},
+};
+
+}  // namespace
+
+std::span<const ScarModelRow> scar_models() noexcept { return kModels; }
+
+const ScarModelRow& scar_model(ScarModel model) noexcept {
+    return *std::find_if(std::begin(kModels), std::end(kModels),
+                         [&](const ScarModelRow& row) { return row.model == model; });
+}
 
 double scar_temperature_K(const ScarCooling& cooling, double time_s) noexcept {
     const double t = std::max(time_s, 0.0);

@@ -14,7 +14,7 @@ enum class Physics { Default, Thesis };
 enum class CellClass : std::uint8_t { Unburned = 0, Front = 1, Scar = 2, NoData = 255 };
 
 /// Coefficients of the scar cooling curve T(t) = T1 exp(-t/tau1) + T2 exp(-t/tau2) + Ta (thesis eq 4.17), defaults eq 4.18.
-/// Amplitudes are temperature differences [K]; the floor is an absolute temperature [K].
+/// Amplitudes are temperature differences [K]; the floor is an absolute temperature [K]. One exponential: amplitude2_K = 0.
 struct ScarCooling {
     double amplitude1_K = 578.97, time_constant1_s = 74.88;
     double amplitude2_K = 197.50, time_constant2_s = 247.72;

@@ -39,6 +39,15 @@ TEST(ScarTemperature, CrossesRoundTemperaturesWhenTheTableSays) {
     }
 }
 
+// Eq 2.9 with the ambient term: 800 degC at the start, 1/e of the way to 34 degC after 100 s, 34 degC in the end.
+TEST(ScarTemperature, SingleExponentialEndsAtTheAmbient) {
+    const auto& cooling = scar_model(ScarModel::SingleExponential).defaults;
+    EXPECT_NEAR(scar_temperature_K(cooling, 0.0) - kZeroCelsius_K, 800.0, 1e-9);
+    EXPECT_NEAR(scar_temperature_K(cooling, 100.0) - kZeroCelsius_K, 34.0 + 766.0 * 0.36787944117144233, 1e-9);
+    EXPECT_NEAR(scar_temperature_K(cooling, 600.0) - kZeroCelsius_K, 35.898724167, 1e-6);
+    EXPECT_NEAR(scar_temperature_K(cooling, 1e5) - kZeroCelsius_K, 34.0, 1e-9);
+}
+
 TEST(ScarTemperature, IsNeverColderThanTheGroundBesideIt) {
     const FireParameters p;  // floor 33.19 degC, ambient 34 degC
     EXPECT_GT(scar_or_ambient_K(p, 1361.0), p.ambient_temperature_K);

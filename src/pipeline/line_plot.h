@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pyroscene::pipeline {
+
+/// One curve or cloud of points. Values that are not finite, or not above 0 on a logarithmic axis, are gaps.
+struct PlotSeries {
+    std::string label;  ///< in the legend; empty = not there
+    std::vector<double> x, y;
+    bool points = false;  ///< markers instead of a line
+};
+
+/// One axis: label with unit, scale and, when given, limits; otherwise those of the data.
+struct PlotAxis {
+    std::string label;
+    bool logarithmic = false;
+    std::optional<double> lowest, highest;
+};
+
+/// One diagram with frame, grid, ticks at round numbers and legend. Texts are ASCII: the font has no other letters.
+struct LinePlot {
+    std::string title;
+    PlotAxis x, y;
+    std::vector<PlotSeries> series;
+    int width_px = 900, height_px = 480;
+};
+
+/// Round tick positions of an axis from low to high: 1, 2 or 5 times a power of ten, about `about` of them; on a logarithmic
+/// axis powers of ten, with 2 and 5 between them where there are few.
+std::vector<double> axis_ticks(double low, double high, bool logarithmic, int about);
+
+/// PNG with the diagrams one below the other. Throws an input error when a diagram has no value to show or x and y differ in
+/// number, a runtime error naming the file when it cannot be written.
+void write_line_plots(const std::filesystem::path& path, std::span<const LinePlot> plots);
+
+}  // namespace pyroscene::pipeline
