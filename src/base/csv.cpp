@@ -1,5 +1,6 @@
 #include "base/csv.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -18,13 +19,42 @@ std::string_view trim(std::string_view s) {
     return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::vector<std::string> split(std::string_view line) {
+/// One field from `rest`, which keeps what follows it, with its comma. In quotes a doubled quote stands for one, and commas
+/// and blanks belong to the field. Throws an input error for a quote that does not end or is followed by text.
+std::string take_field(std::string_view& rest, std::string_view subject) {
+    const auto first = rest.find_first_not_of(" \t");
+    if (first == std::string_view::npos || rest[first] != '"') {
+        const auto comma = std::min(rest.find(','), rest.size());
+        std::string field(trim(rest.substr(0, comma)));
+        rest.remove_prefix(comma);
+        return field;
+    }
+    std::string field;
+    std::size_t at = first + 1;
+    for (;; ++at) {
+        if (at >= rest.size()) throw input_error(subject, "a quoted field does not end on its line");
+        if (rest[at] != '"') {
+            field += rest[at];
+        } else if (at + 1 < rest.size() && rest[at + 1] == '"') {
+            field += rest[at++];
+        } else {
+            break;
+        }
+    }
+    rest.remove_prefix(at + 1);
+    const auto comma = std::min(rest.find(','), rest.size());
+    if (const auto after = trim(rest.substr(0, comma)); !after.empty())
+        throw input_error(subject, fmt::format("found '{}' after a quoted field, expected a comma", after));
+    rest.remove_prefix(comma);
+    return field;
+}
+
+std::vector<std::string> split(std::string_view line, std::string_view subject) {
     std::vector<std::string> fields;
-    for (std::size_t begin = 0;;) {
-        const auto comma = line.find(',', begin);
-        fields.emplace_back(trim(line.substr(begin, comma - begin)));
-        if (comma == std::string_view::npos) return fields;
-        begin = comma + 1;
+    for (;;) {
+        fields.push_back(take_field(line, subject));
+        if (line.empty()) return fields;
+        line.remove_prefix(1);  // the comma
     }
 }
 
@@ -72,9 +102,7 @@ CsvTable read_csv(const std::filesystem::path& path) {
         if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of spreadsheet exports
         const auto text = trim(line);
         if (text.empty() || text.front() == '#') continue;
-        if (text.find('"') != std::string_view::npos)
-            throw input_error(fmt::format("{}:{}", table.path, number), "quoted fields are not supported");
-        auto fields = split(text);
+        auto fields = split(text, fmt::format("{}:{}", table.path, number));
         if (table.columns.empty()) {
             table.columns = std::move(fields);
             continue;

@@ -7,8 +7,8 @@
 
 namespace pyroscene {
 
-/// A small text table: '#' comment lines, one header row, then rows of as many fields. Quoted fields are not used
-/// by the tables of this project and are refused.
+/// A small text table: '#' comment lines, one header row, then rows of as many fields. A field may stand in double quotes
+/// (RFC 4180), but not run over several lines.
 struct CsvTable {
     std::string path;
     std::vector<std::string> columns;
@@ -22,7 +22,8 @@ struct CsvTable {
     [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
 };
 
-/// Reads a table. Throws an input error naming file and line (missing file, ragged row, no header).
+/// Reads a table. Throws an input error naming file and line (missing file, ragged row, no header,
+/// open quote).
 CsvTable read_csv(const std::filesystem::path& path);
 
 /// A full-string number, or an input error "subject: expected a number, found ...".

@@ -45,6 +45,13 @@ TEST(Csv, KeepsEmptyFields) {
     EXPECT_EQ(t.rows[0], (std::vector<std::string>{"1", "", ""}));
 }
 
+TEST(Csv, TakesQuotedFieldsWithCommasQuotesAndBlanks) {
+    const CsvTable t = table_of("a,\"b, c\",d\n\"1,5\" , \" x \",\"\"\n2,\"say \"\"no\"\"\",3\n");
+    EXPECT_EQ(t.columns, (std::vector<std::string>{"a", "b, c", "d"}));
+    EXPECT_EQ(t.rows[0], (std::vector<std::string>{"1,5", " x ", ""}));
+    EXPECT_EQ(t.rows[1], (std::vector<std::string>{"2", "say \"no\"", "3"}));
+}
+
 TEST(Csv, IgnoresAByteOrderMark) {
     EXPECT_EQ(table_of("\xEF\xBB\xBF"
                        "a,b\n1,2\n")
@@ -54,7 +61,8 @@ TEST(Csv, IgnoresAByteOrderMark) {
 
 TEST(Csv, NamesFileLineAndColumnOfWhatIsWrong) {
     EXPECT_NE(message_of("a,b\n1,2\n1,2,3\n").find("table.csv:3: found 3 fields, expected 2"), std::string::npos);
-    EXPECT_NE(message_of("a\n\"x\"\n").find("table.csv:2"), std::string::npos);
+    EXPECT_NE(message_of("a\n\"x\n").find("table.csv:2: a quoted field does not end"), std::string::npos);
+    EXPECT_NE(message_of("a\n\"x\"y\n").find("table.csv:2: found 'y' after a quoted field"), std::string::npos);
     EXPECT_NE(message_of("# only a comment\n").find("empty"), std::string::npos);
     const CsvTable t = table_of("a,b\n1,2\n1,two\n");
     try {
