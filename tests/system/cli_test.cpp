@@ -58,6 +58,31 @@ TEST(Calc, TableKeepsItsColumnsAndAppendsResults) {
     EXPECT_NEAR(radiance[1], 9.573, 0.001);
 }
 
+// Reference flame (H2O 0.14, CO2 0.10, CO 0.02), 1100 K, 1 m: radiances of the independent check program for fv 1e-7; depth of
+// the gas alone at 4.3 and 10.6 um against RADCAL; potassium: 1042 1/m at the centre of D2 with 1 ppm makes any flame black.
+TEST(Calc, FlameEmissivity) {
+    const ScratchFolder scratch;
+    std::ofstream(scratch / "in.csv") << "wavelength_um,soot_volume_fraction,potassium_ppm\n0.77,1e-7,0\n1.2,1e-7,0\n"
+                                         "2.2,1e-7,0\n3.9,1e-7,0\n4.3,1e-7,0\n10.6,1e-7,0\n10.6,0,0\n0.766700922,1e-7,1\n";
+    const auto result = pyroscene_cli("calc flame-emissivity --temperature_K 1100 --path_m 1 --csv " +
+                                      (scratch / "in.csv").string() + " -o " + (scratch / "out.csv").string());
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const auto table = read_csv(scratch / "out.csv");
+    const auto radiance = table.numbers("radiance_W_m2_sr_um"), emissivity = table.numbers("emissivity");
+    const std::vector<double> expected{7.676, 263.8, 1228.0, 624.7, 4062.0, 60.07};
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(radiance[i], expected[i], 1e-3 * expected[i]);
+    EXPECT_NEAR(-std::log1p(-emissivity[6]), 0.142, 0.0006);
+    EXPECT_GT(emissivity[7], 0.9999999);
+
+    const auto too_much =
+        pyroscene_cli("calc flame-emissivity --wavelength_um 4 --temperature_K 1100 --path_m 1 --x_h2o 0.95");
+    EXPECT_EQ(too_much.exit_code, 3);
+    EXPECT_NE(too_much.output.find("x_co2"), std::string::npos) << too_much.output;
+    const auto cold = pyroscene_cli("calc flame-emissivity --wavelength_um 4 --temperature_K 0 --path_m 1");
+    EXPECT_EQ(cold.exit_code, 3);
+    EXPECT_NE(cold.output.find("temperature_K"), std::string::npos) << cold.output;
+}
+
 TEST(Sensors, ListAndDetails) {
     const auto list = pyroscene_cli("sensors");
     EXPECT_EQ(list.exit_code, 0);
