@@ -28,10 +28,29 @@ void jitter(FlameColumn& column, const RandomKey& key, std::size_t fine_cell, do
     column.y_m += jitter_m * (2.0 * uniform01(key, fine_cell, 1) - 1.0);
 }
 
+/// Embers as upright cubes where the wind has taken them by now.
+void add_embers(const FireState& state, double time_s, const Raster<float>& terrain_m, const FireParameters& fire,
+                const FlameParameters& flame, Vec3 scene_origin, std::vector<FlameColumn>& columns) {
+    for (const Ember& ember : state.embers) {
+        if (time_s - ember.release_s >= fire.embers.lifetime_s) continue;
+        const EmberNow now = ember_at(ember, time_s, fire.embers, flame.temperature_K, fire.air_temperature_K);
+        FlameColumn column{.x_m = now.x_m - scene_origin.x,
+                           .y_m = now.y_m - scene_origin.y,
+                           .width_m = ember.edge_m,
+                           .bottom_m = now.bottom_m + flame.ember_gap_m,
+                           .temperature_K = now.temperature_K};
+        column.top_m = column.bottom_m + ember.edge_m;
+        column.z_m =
+            bilinear_or_own(terrain_m, terrain_m.grid.col_at(ember.ground_x_m), terrain_m.grid.row_at(ember.ground_y_m));
+        if (!std::isnan(column.z_m)) columns.push_back(column);
+    }
+}
+
 }  // namespace
 
 std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField& surface, const Raster<float>& terrain_m,
-                                      const FireParameters& fire, const FlameParameters& flame, Vec3 scene_origin) {
+                                      const FireParameters& fire, const FlameParameters& flame, Vec3 scene_origin,
+                                      double time_s) {
     check(state, surface, terrain_m, fire);
     const RandomKey key{fire.seed, stream_id("flame jitter"), random_frame(state.time_s)};
     std::vector<FlameColumn> columns;
@@ -56,16 +75,24 @@ std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField
             if (std::isnan(column.z_m)) continue;
             column.x_m -= scene_origin.x;
             column.y_m -= scene_origin.y;
+            if (flame.profile.shape != TemperatureProfile::Shape::Constant) column.flame_m = column.top_m;
             if (column.top_m > 0.0) columns.push_back(column);
 
             const double ember_m = state.ember_height_m.values[cell] / cell_fraction;
-            if (!(ember_m > 0.0)) continue;
+            if (!(ember_m > 0.0) || fire.embers.drift) continue;
+            column.flame_m = 0.0;
             column.bottom_m = column.top_m + flame.ember_gap_m;
             column.top_m = column.bottom_m + ember_m;
             columns.push_back(column);
         }
     }
+    if (fire.embers.drift) add_embers(state, time_s, terrain_m, fire, flame, scene_origin, columns);
     return columns;
+}
+
+std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField& surface, const Raster<float>& terrain_m,
+                                      const FireParameters& fire, const FlameParameters& flame, Vec3 scene_origin) {
+    return make_columns(state, surface, terrain_m, fire, flame, scene_origin, state.time_s);
 }
 
 }  // namespace pyroscene::fire

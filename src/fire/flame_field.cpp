@@ -86,15 +86,19 @@ FlameField merge_into_bricks(const VoxelGrid& grid, std::vector<Contribution> co
     field.bricks.resize(lay_out_columns(field, contributions), FlameField::Brick{});
     for (std::size_t n = 0; n < contributions.size();) {
         const std::uint64_t key = contributions[n].key;
-        double fill = 0.0, fill_K = 0.0;
+        double fill = 0.0, fill_T5 = 0.0;
+        const float first_K = contributions[n].temperature_K;
+        bool isothermal = true;
         for (; n < contributions.size() && contributions[n].key == key; ++n) {
+            const double T_K = contributions[n].temperature_K, T2 = T_K * T_K;
             fill += contributions[n].fill;
-            fill_K += static_cast<double>(contributions[n].fill) * contributions[n].temperature_K;
+            fill_T5 += static_cast<double>(contributions[n].fill) * T2 * T2 * T_K;
+            isothermal = isothermal && contributions[n].temperature_K == first_K;
         }
         const auto& column = field.columns[column_of(key)];
         auto& brick = field.bricks[static_cast<std::size_t>(column.first_brick + height_of(key) - column.z_begin)];
         brick.fill[voxel_of(key)] = static_cast<float>(fill);
-        brick.temperature_K[voxel_of(key)] = static_cast<float>(fill_K / fill);
+        brick.temperature_K[voxel_of(key)] = isothermal ? first_K : static_cast<float>(std::pow(fill_T5 / fill, 0.2));
     }
     return field;
 }

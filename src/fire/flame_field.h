@@ -8,6 +8,7 @@
 #include "base/raster.h"
 #include "base/vec3.h"
 #include "fire/surface_field.h"
+#include "fire/temperature_profile.h"
 
 namespace pyroscene::fire {
 
@@ -54,7 +55,7 @@ struct FlameField {
     [[nodiscard]] std::array<double, 2> temperature_range_K() const noexcept;
 };
 
-/// Builds the bricks; voxels of the same (i, j, k) are merged: fills add, temperatures average by fill. Order of the input
+/// Builds the bricks; voxels of the same (i, j, k) are merged: fills add, T^5 averages by fill (TemperatureProfile says why). Order of the input
 /// does not matter to the bit. Throws an input error for k < 0 or i, j outside the grid, a negative or infinite fill, and a
 /// grid without voxels.
 FlameField make_flame_field(const VoxelGrid& grid, std::span<const FlameVoxel> voxels);
@@ -69,7 +70,8 @@ struct FlameColumn {
     double area_fraction = 1.0;              ///< part of the base that flames
     double bottom_m = 0.0, top_m = 0.0;      ///< heights above the base between which it emits (embers: bottom > 0)
     double tilt_rad = 0.0, azimuth_rad = 0.0;
-    double temperature_K = 0.0;
+    double temperature_K = 0.0;  ///< at the base where a profile runs, else everywhere
+    double flame_m = 0.0;        ///< height over which the temperature profile runs, from the base; 0 = one temperature
 };
 
 /// Flame temperature and voxel size as the scenario gives them.
@@ -77,13 +79,19 @@ struct FlameParameters {
     double temperature_K = 1100.0;
     std::array<double, 3> voxel_m{5.0, 5.0, 1.0};
     double ember_gap_m = 0.5;  ///< air between a flame and its detached part
+    TemperatureProfile profile;
 };
 
 /// Columns of all burning fine cells: their height is flame_height / front_fraction of the map cell over the flaming area,
-/// which conserves the volume of eq 4.21; jittered by the counter-based generator. Detached flame (ember_height) is a second
-/// column above the gap. Fine cells whose terrain height is unknown have no flame. Throws an input error when the terrain or
+/// which conserves the volume of eq 4.21; jittered by the counter-based generator. Embers that drift follow, at `time_s` (not
+/// before the state's); where they do not, detached flame (ember_height) is a second column above the gap. Fine cells whose terrain height is unknown have no flame. Throws an input error when the terrain or
 /// the surface is not on the state's grid. \param scene_origin  map coordinates (x, y) of the scene frame's origin; z of the
 /// scene frame is terrain height itself \param terrain_m     on the map grid; base height of a column is bilinear in it
+std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField& surface, const Raster<float>& terrain_m,
+                                      const FireParameters& fire, const FlameParameters& flame, Vec3 scene_origin,
+                                      double time_s);
+
+/// The same at the time of the state.
 std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField& surface, const Raster<float>& terrain_m,
                                       const FireParameters& fire, const FlameParameters& flame, Vec3 scene_origin);
 

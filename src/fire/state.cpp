@@ -40,6 +40,8 @@ void check(const FireParameters& p) {
     require_positive(p.air_density_kg_m3, "fire.air_density_kg_m3");
     require_positive(p.air_heat_capacity_J_kg_K, "fire.air_heat_capacity_J_kg_K");
     require_positive(p.air_temperature_K, "fire.air_temperature_K");
+    require_positive(p.embers.cooling_time_s, "fire.embers.cooling_time_s");
+    require_positive(p.embers.wind_height_m, "fire.embers.wind_height_m");
     if (!(p.front_threshold_W_m2 >= 0.0))
         throw input_error("fire.front_threshold_W_m2", fmt::format("is {}, must not be negative", p.front_threshold_W_m2));
     if (!(p.maximum_tilt_rad >= 0.0 && p.maximum_tilt_rad <= 89.0 * kDegree_rad))
@@ -174,6 +176,13 @@ void set_flames(FireState& state, const FrameInputs& frame, const FireParameters
     }
 }
 
+double heat_release_W(const FrameInputs& frame) {
+    double sum = 0.0;
+    for (const float flux : frame.heat_flux_W_m2.values)
+        if (flux > 0.0F && std::isfinite(flux)) sum += flux;
+    return sum * frame.heat_flux_W_m2.grid.cell_area_m2();
+}
+
 }  // namespace
 
 float scar_clock_s(const FireState& state, Physics physics, std::size_t cell) noexcept {
@@ -187,6 +196,8 @@ FireState advance(const FireState* previous, const FrameInputs& frame, const Fir
     label_cells(state, previous, frame, parameters.front_threshold_W_m2);
     set_temperatures(state, parameters);
     set_flames(state, frame, parameters);
+    release_embers(state, previous, frame, parameters);
+    state.heat_release_W = heat_release_W(frame);
     return state;
 }
 

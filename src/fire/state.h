@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/raster.h"
+#include "fire/embers.h"
 
 namespace pyroscene::fire {
 
@@ -35,7 +37,8 @@ struct FireParameters {
     bool one_sigma_rule = true;                   ///< limit heights by the statistics of all earlier frames (thesis 4.6.1)
     double air_density_kg_m3 = 1.18, air_heat_capacity_J_kg_K = 1005.0, air_temperature_K = 300.0;
     double maximum_tilt_rad = 1.4835298641951802;  ///< 85 degrees; at most 89 (a flat flame has no shear)
-    double jitter_m = 0.0;                         ///< half width of the uniform shift of flame columns (thesis 4.6.4)
+    EmberParameters embers;
+    double jitter_m = 0.0;  ///< half width of the uniform shift of flame columns (thesis 4.6.4)
     std::uint64_t seed = 1;
 };
 
@@ -61,7 +64,7 @@ struct FrameInputs {
 /// depend on the number of frames.
 ///
 /// To continue from a stored state, advance() needs, to the bit: time_s, cell_class, arrival_time_s, last_burning_time_s,
-/// height_statistics and, when frames come without an arrival raster of their own, predicted_arrival_time_s.
+/// height_statistics, embers and, when frames come without an arrival raster of their own, predicted_arrival_time_s.
 /// To see a stored state, surface_at() and make_columns() need in addition cell_class, front_fraction, flame_height_m,
 /// ember_height_m, flame_tilt_rad and flame_azimuth_rad. surface_temperature_K is for people: nothing reads it.
 struct FireState {
@@ -77,6 +80,8 @@ struct FireState {
     Raster<float> flame_tilt_rad;            ///< from the vertical, 0 = upright
     Raster<float> flame_azimuth_rad;         ///< direction the flame leans to, clockwise from grid north
     RunningStatistics height_statistics;     ///< of all frames up to and including this one
+    std::vector<Ember> embers;    ///< detached flame still hot, oldest frame first; empty when embers do not drift
+    double heat_release_W = 0.0;  ///< sum of positive heat flux x cell area over the whole map
 };
 
 /// Zero of a scar cell's cooling curve [s]. Default physics: the arrival of the fire, because the part that still flamed later

@@ -124,7 +124,8 @@ Extent extent_of(std::span<const FlameColumn> columns, const Lattice& lattice) {
 /// Cuts columns layer by layer into contributions of whole voxels.
 class Cutter {
 public:
-    Cutter(const Lattice& lattice, const VoxelGrid& grid) : lattice_(lattice), grid_(grid) {}
+    Cutter(const Lattice& lattice, const VoxelGrid& grid, const TemperatureProfile& profile)
+        : lattice_(lattice), grid_(grid), profile_(profile) {}
 
     void add(const FlameColumn& c) {
         const Prism prism(c);
@@ -163,10 +164,18 @@ private:
                 for (std::size_t i = 0; i < x_.length_m.size(); ++i) line[i] += x_.length_m[i] * y_.length_m[j] * slab_m;
             }
         }
-        emit(prism.column, window, k);
+        emit(prism.column, window, k, temperature_K(prism, low_m, high_m));
     }
 
-    void emit(const FlameColumn& column, const Extent& window, std::int64_t k) {
+    /// One temperature for the layer that emits like the profile within it.
+    [[nodiscard]] float temperature_K(const Prism& prism, double low_m, double high_m) const noexcept {
+        const FlameColumn& c = prism.column;
+        if (!(c.flame_m > 0.0)) return static_cast<float>(c.temperature_K);
+        return static_cast<float>(
+            profile_.emission_mean_K(c.temperature_K, (low_m - c.z_m) / c.flame_m, (high_m - c.z_m) / c.flame_m));
+    }
+
+    void emit(const FlameColumn& column, const Extent& window, std::int64_t k, float T_K) {
         const double per_m3 = column.area_fraction / (lattice_.dx_m * lattice_.dy_m * lattice_.dz_m);
         std::size_t n = 0;
         for (std::int64_t j = window.j_low; j <= window.j_high; ++j) {
@@ -175,13 +184,14 @@ private:
                 if (!(fill > 0.0F)) continue;
                 const auto key = contribution_key(grid_, static_cast<int>(i - lattice_.i0),
                                                   static_cast<int>(j - lattice_.j0), static_cast<int>(k - lattice_.k0));
-                contributions_.push_back({key, fill, static_cast<float>(column.temperature_K)});
+                contributions_.push_back({key, fill, T_K});
             }
         }
     }
 
     Lattice lattice_;
     VoxelGrid grid_;
+    TemperatureProfile profile_;
     Overlaps x_, y_;
     std::vector<double> layer_m3_;
     std::vector<Contribution> contributions_;
@@ -209,7 +219,7 @@ FlameField voxelise(std::span<const FlameColumn> columns, const FlameParameters&
                          dy_m,
                          dz_m};
     check_grid(grid);
-    Cutter cutter(lattice, grid);
+    Cutter cutter(lattice, grid, flame.profile);
     for (const FlameColumn& column : columns) cutter.add(column);
     return merge_into_bricks(grid, cutter.take());
 }

@@ -125,8 +125,8 @@ FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const
     FireScene scene;
     scene.surface = fire::surface_at(state, time_s, scenario.fire, refinement);
     if (scenario.flame.off) return scene;
-    const auto columns =
-        fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters, in.origin_m);
+    const auto columns = fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters,
+                                            in.origin_m, time_s);
     scene.flame = fire::voxelise(columns, scenario.flame.parameters);
     return scene;
 }
@@ -145,7 +145,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
     for (const double lambda_um : optics.lambda_um)
         optics.flame_absorption_per_m.push_back(static_cast<float>(
             optics.grey ? *scenario.flame.grey_absorption_per_m
-                        : radiometry::soot_absorption_per_m(soot, lambda_um, scenario.flame.soot_volume_fraction)));
+                        : radiometry::soot_absorption_per_m(soot, lambda_um, scenario.flame.gas.soot_volume_fraction)));
 
     const auto library = radiometry::load_surfaces(data_folder() / "optical" / "surface_reflectance.csv");
     auto names = in.cover_names;

@@ -22,7 +22,7 @@ double heat_release_W(const scenario::Scenario& scenario, const SceneInputs& in,
 /// Planck-mean absorption of soot, 1340 fv T [1/m] near 1000-1100 K, or the grey value of the scenario.
 double mean_absorption_per_m(const scenario::FlameSettings& flame, double temperature_K) {
     constexpr double kSootPlanckMean_per_m_K = 1340.0;
-    return flame.grey_absorption_per_m.value_or(kSootPlanckMean_per_m_K * flame.soot_volume_fraction * temperature_K);
+    return flame.grey_absorption_per_m.value_or(kSootPlanckMean_per_m_K * flame.gas.soot_volume_fraction * temperature_K);
 }
 
 }  // namespace

@@ -26,6 +26,8 @@ std::string fire_text(const Scenario& s) {
                     f.scar.amplitude1_K, f.scar.time_constant1_s, f.scar.amplitude2_K, f.scar.time_constant2_s,
                     f.scar.floor_K, f.height_alpha, f.volumetric_heat_release_W_m3, f.one_sigma_rule, f.air_density_kg_m3,
                     f.air_heat_capacity_J_kg_K, f.air_temperature_K, f.maximum_tilt_rad, f.jitter_m, f.seed);
+    const auto& e = f.embers;
+    out += fmt::format("|{}|{}|{}|{}|{};", e.drift, e.cooling_time_s, e.lifetime_s, e.wind_height_m, e.wind_exponent);
     out += text(s.inputs.terrain) + text(s.inputs.heat_flux);
     if (s.inputs.arrival) out += text(*s.inputs.arrival);
     if (s.inputs.wind) {
@@ -40,7 +42,11 @@ std::string scene_text(const Scenario& s) {
     const auto& r = s.render;
     std::string out = fmt::format("{}|{}|{}|{}|{}|{};", flame.parameters.temperature_K,
                                   fmt::join(flame.parameters.voxel_m, ","), flame.parameters.ember_gap_m,
-                                  flame.soot_volume_fraction, flame.grey_absorption_per_m.value_or(-1.0), flame.off);
+                                  flame.gas.soot_volume_fraction, flame.grey_absorption_per_m.value_or(-1.0), flame.off);
+    const auto& gas = flame.gas;
+    out += fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{};", static_cast<int>(flame.parameters.profile.shape),
+                       flame.parameters.profile.tip_K, gas.x_H2O, gas.x_CO2, gas.x_CO, gas.x_CH4, gas.x_O2,
+                       gas.potassium_ppm, gas.pressure_Pa, flame.parameters.profile.air_K);
     out += fmt::format("{}|{}|{};", s.surface.unburned, s.surface.burned, s.surface.emissivity.value_or(-1.0));
     if (s.inputs.cover) out += text(s.inputs.cover->raster) + s.inputs.cover->table;
     out += fmt::format("{}|{}|{}|{};", s.atmosphere.model, s.atmosphere.visibility_km,

@@ -7,6 +7,7 @@
 #include "base/constants.h"
 #include "base/csv.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "gis/raster_output.h"
 
 namespace pyroscene::pipeline {
@@ -32,10 +33,60 @@ constexpr StateBand kBands[] = {
     {"flame_azimuth", "degree", &FireState::flame_azimuth_rad, 1.0 / kDegree_rad},
 };
 
+/// The columns of the table of embers beside a state.
+struct EmberColumn {
+    const char* name;
+    double fire::Ember::*value;
+};
+constexpr EmberColumn kEmberColumns[] = {
+    {"release_s", &fire::Ember::release_s},
+    {"x_m", &fire::Ember::x_m},
+    {"y_m", &fire::Ember::y_m},
+    {"ground_x_m", &fire::Ember::ground_x_m},
+    {"ground_y_m", &fire::Ember::ground_y_m},
+    {"bottom_m", &fire::Ember::bottom_m},
+    {"edge_m", &fire::Ember::edge_m},
+    {"east_m_s", &fire::Ember::east_m_s},
+    {"north_m_s", &fire::Ember::north_m_s},
+    {"rise_m_s", &fire::Ember::rise_m_s},
+};
+
 double number(const std::map<std::string, std::string>& metadata, const char* key, const std::filesystem::path& path) {
     const auto it = metadata.find(key);
     if (it == metadata.end()) throw runtime_error(path.string(), fmt::format("state file without '{}'", key));
     return parse_number(it->second, path.string() + ": " + key);
+}
+
+std::filesystem::path ember_path(std::filesystem::path state) {
+    const auto name = state.stem().string() + "_embers.csv";
+    return state.replace_filename(name);
+}
+
+/// Shortest digits that read back as the same number.
+void write_embers(const std::filesystem::path& path, const std::vector<fire::Ember>& embers) {
+    std::string text;
+    for (const auto& column : kEmberColumns) text += fmt::format("{}{}", text.empty() ? "" : ",", column.name);
+    text += '\n';
+    for (const auto& ember : embers) {
+        for (const auto& column : kEmberColumns)
+            text += fmt::format("{}{}", &column == kEmberColumns ? "" : ",", ember.*column.value);
+        text += '\n';
+    }
+    write_text_file(path, text);
+}
+
+std::vector<fire::Ember> read_embers(const std::filesystem::path& path, std::size_t count) {
+    std::vector<fire::Ember> embers(count);
+    if (count == 0) return embers;
+    const auto table = read_csv(path);
+    if (table.rows.size() != count)
+        throw runtime_error(path.string(),
+                            fmt::format("found {} embers, expected {}; run again with --force", table.rows.size(), count));
+    for (const auto& column : kEmberColumns) {
+        const auto values = table.numbers(column.name);
+        for (std::size_t i = 0; i < count; ++i) embers[i].*column.value = values[i];
+    }
+    return embers;
 }
 
 }  // namespace
@@ -64,7 +115,11 @@ void write_state(const std::filesystem::path& path, const FireState& state, cons
                     {"TIME_S", fmt::format("{}", state.time_s)},
                     {"HEIGHT_COUNT", fmt::format("{}", statistics.count)},
                     {"HEIGHT_MEAN_M", fmt::format("{:.17g}", statistics.mean_m)},
-                    {"HEIGHT_M2_M2", fmt::format("{:.17g}", statistics.m2_m2)}};
+                    {"HEIGHT_M2_M2", fmt::format("{:.17g}", statistics.m2_m2)},
+                    {"EMBER_COUNT", fmt::format("{}", state.embers.size())},
+                    {"HEAT_RELEASE_W", fmt::format("{:.17g}", state.heat_release_W)}};
+    // The table first: a state file that exists is complete.
+    if (!state.embers.empty()) write_embers(ember_path(path), state.embers);
     gis::write_geotiff(path, out, std::span<const float>(pixels));
 }
 
@@ -78,6 +133,8 @@ FireState read_state(const std::filesystem::path& path, const MapGrid& grid,
     state.height_statistics.count = static_cast<std::int64_t>(number(image.metadata, "HEIGHT_COUNT", path));
     state.height_statistics.mean_m = number(image.metadata, "HEIGHT_MEAN_M", path);
     state.height_statistics.m2_m2 = number(image.metadata, "HEIGHT_M2_M2", path);
+    state.heat_release_W = number(image.metadata, "HEAT_RELEASE_W", path);
+    state.embers = read_embers(ember_path(path), static_cast<std::size_t>(number(image.metadata, "EMBER_COUNT", path)));
     state.cell_class = Raster<std::uint8_t>(grid, "class", "1");
     const std::size_t n = grid.size();
     for (std::size_t i = 0; i < n; ++i)

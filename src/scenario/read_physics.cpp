@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/constants.h"
@@ -41,6 +43,17 @@ void read_air(const config::Node& node, fire::FireParameters& p) {
     node.finish();
 }
 
+fire::EmberParameters read_embers(const config::Node& node) {
+    fire::EmberParameters embers;
+    embers.drift = node.boolean("drift", embers.drift);
+    embers.cooling_time_s = node.number("cooling_time_s", embers.cooling_time_s, Range{0.0, 1e4, true});
+    embers.lifetime_s = node.number("lifetime_s", embers.lifetime_s, Range::between(0.0, 1e5));
+    embers.wind_height_m = node.number("wind_height_m", embers.wind_height_m, Range::between(0.1, 1000.0));
+    embers.wind_exponent = node.number("wind_exponent", embers.wind_exponent, Range::between(0.0, 1.0));
+    node.finish();
+    return embers;
+}
+
 fire::ScarCooling read_scar(const config::Node& node) {
     fire::ScarCooling scar;
     constexpr Range kAmplitude = Range::between(0.0, 3000.0), kTimeConstant{0.0, 1e7, true};
@@ -71,6 +84,7 @@ fire::FireParameters read_fire(const config::Node& node, const config::Node& sca
     p.flaming_heat_flux_W_m2 = node.number("flaming_heat_flux_W_m2", p.flaming_heat_flux_W_m2, Range{0.0, 1e8, true});
     p.one_sigma_rule = node.boolean("one_sigma_rule", p.one_sigma_rule);
     p.jitter_m = node.number("jitter_m", p.jitter_m, Range::between(0.0, 1000.0));
+    p.embers = read_embers(node.child("embers"));
     read_flame_height(node.child("flame_height"), p);
     read_tilt(node.child("tilt"), p);
     read_air(node.child("air"), p);
@@ -79,15 +93,50 @@ fire::FireParameters read_fire(const config::Node& node, const config::Node& sca
     return p;
 }
 
+namespace {
+
+constexpr Range kSoot = Range::between(0.0, 1e-4);
+
+FlameGas read_composition(const config::Node& node) {
+    FlameGas gas;
+    constexpr Range kFraction = Range::between(0.0, 1.0);
+    gas.soot_volume_fraction = node.number("soot_volume_fraction", gas.soot_volume_fraction, kSoot);
+    gas.x_H2O = node.number("x_H2O", gas.x_H2O, kFraction);
+    gas.x_CO2 = node.number("x_CO2", gas.x_CO2, kFraction);
+    gas.x_CO = node.number("x_CO", gas.x_CO, kFraction);
+    gas.x_CH4 = node.number("x_CH4", gas.x_CH4, kFraction);
+    gas.x_O2 = node.number("x_O2", gas.x_O2, kFraction);
+    gas.potassium_ppm = node.number("potassium_ppm", gas.potassium_ppm, Range::between(0.0, 1000.0));
+    if (gas.x_N2() < -1e-9) node.report(fmt::format("mole fractions sum to {:g}, more than 1", 1.0 - gas.x_N2()));
+    node.finish();
+    return gas;
+}
+
+/// How temperature runs from the base of a flame to its tip.
+void read_profile(const config::Node& node, fire::FlameParameters& p) {
+    using Shape = fire::TemperatureProfile::Shape;
+    const auto& names = fire::kTemperatureProfileNames;
+    const std::string name = node.choice("profile", names[0], {std::begin(names), std::end(names)});
+    p.profile.shape = static_cast<Shape>(std::find(std::begin(names), std::end(names), name) - std::begin(names));
+    p.profile.tip_K = node.number("tip_temperature_K", p.profile.tip_K, kTemperature_K);
+}
+
+}  // namespace
+
 FlameSettings read_flame(const config::Node& node) {
     FlameSettings flame;
     auto& p = flame.parameters;
     flame.off = !node.boolean("enabled", !flame.off);
     p.temperature_K = node.number("temperature_K", p.temperature_K, kTemperature_K);
-    flame.soot_volume_fraction = node.number("soot_volume_fraction", flame.soot_volume_fraction, Range::between(0.0, 1e-4));
+    flame.gas = read_composition(node.child("composition"));
+    flame.gas.soot_volume_fraction = node.number("soot_volume_fraction", flame.gas.soot_volume_fraction, kSoot);
+    if (node.has("soot_volume_fraction") && node.child("composition").has("soot_volume_fraction"))
+        node.child("soot_volume_fraction").report("is in 'composition' too; give it once");
+    read_profile(node, p);
     flame.grey_absorption_per_m = node.optional_number("absorption_per_m", Range::between(0.0, 1e4));
     p.ember_gap_m = node.number("ember_gap_m", p.ember_gap_m, Range::between(0.0, 100.0));
-    if (node.has("soot_volume_fraction") && node.has("absorption_per_m"))
+    const bool soot = node.has("soot_volume_fraction") || node.child("composition").has("soot_volume_fraction");
+    if (soot && node.has("absorption_per_m"))
         node.child("absorption_per_m").report("replaces soot; give 'soot_volume_fraction' or 'absorption_per_m', not both");
     const auto edges_m = node.numbers("voxel_m", 3);
     const auto items = node.child("voxel_m").items();

@@ -99,6 +99,7 @@ Scenario load(const fs::path& path) {
     s.fire.physics = s.physics;
     s.fire.seed = s.seed;
     s.flame = read_flame(root.child("flame"));
+    s.flame.parameters.profile.air_K = s.fire.air_temperature_K;
     s.surface = read_surface(root.child("surface"));
     s.atmosphere = read_atmosphere(root.child("atmosphere"), folder);
     s.render = read_render(root.child("render"));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/flame_gas.h"
 #include "fire/flame_field.h"
 #include "fire/state.h"
 
@@ -62,7 +63,7 @@ struct SurfaceSettings {
 
 struct FlameSettings {
     fire::FlameParameters parameters;
-    double soot_volume_fraction = 2e-7;
+    FlameGas gas;
     std::optional<double> grey_absorption_per_m;  ///< wavelength-independent absorption instead of soot
     bool off = false;                             ///< no flames at all
 };

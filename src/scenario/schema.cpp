@@ -80,6 +80,18 @@ constexpr const char* kSchema = R"json({
         "flaming_heat_flux_W_m2": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e8, "default": 5e5},
         "one_sigma_rule": {"type": "boolean", "default": true},
         "jitter_m": {"type": "number", "minimum": 0, "maximum": 1000, "default": 0},
+        "embers": {
+          "description": "detached flame: drifts with the wind and cools",
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "drift": {"type": "boolean", "default": true},
+            "cooling_time_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e4, "default": 2},
+            "lifetime_s": {"type": "number", "minimum": 0, "maximum": 1e5, "default": 6},
+            "wind_height_m": {"type": "number", "minimum": 0.1, "maximum": 1000, "default": 6.1},
+            "wind_exponent": {"type": "number", "minimum": 0, "maximum": 1, "default": 0.143}
+          }
+        },
         "flame_height": {
           "type": "object",
           "additionalProperties": false,
@@ -114,7 +126,23 @@ constexpr const char* kSchema = R"json({
       "properties": {
         "enabled": {"type": "boolean", "default": true},
         "temperature_K": {"$ref": "#/$defs/temperature_K", "default": 1100},
+        "profile": {"enum": ["constant", "linear", "mccaffrey"], "default": "constant"},
+        "tip_temperature_K": {"$ref": "#/$defs/temperature_K", "default": 823.15},
         "soot_volume_fraction": {"type": "number", "minimum": 0, "maximum": 1e-4, "default": 2e-7},
+        "composition": {
+          "description": "of the flame gas; mole fractions, nitrogen is what is left",
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "soot_volume_fraction": {"type": "number", "minimum": 0, "maximum": 1e-4, "default": 2e-7},
+            "x_H2O": {"$ref": "#/$defs/mole_fraction", "default": 0.14},
+            "x_CO2": {"$ref": "#/$defs/mole_fraction", "default": 0.10},
+            "x_CO": {"$ref": "#/$defs/mole_fraction", "default": 0.02},
+            "x_CH4": {"$ref": "#/$defs/mole_fraction", "default": 0},
+            "x_O2": {"$ref": "#/$defs/mole_fraction", "default": 0.03},
+            "potassium_ppm": {"type": "number", "minimum": 0, "maximum": 1000, "default": 1}
+          }
+        },
         "absorption_per_m": {"type": "number", "minimum": 0, "maximum": 1e4, "description": "grey, instead of soot"},
         "voxel_m": {"type": "array", "minItems": 3, "maxItems": 3, "default": [5, 5, 1],
           "items": {"type": "number", "minimum": 0.05, "maximum": 200}},
@@ -218,6 +246,7 @@ constexpr const char* kSchema = R"json({
     "name": {"type": "string", "maxLength": 100, "pattern": "^[A-Za-z0-9][A-Za-z0-9._-]*$"},
     "words": {"type": "array", "minItems": 1, "items": {"type": "string"}},
     "temperature_K": {"type": "number", "minimum": 200, "maximum": 3500},
+    "mole_fraction": {"type": "number", "minimum": 0, "maximum": 1},
     "wind_speed": {"type": "number", "minimum": 0, "maximum": 100, "description": "m s-1"},
     "band": {"type": "integer", "minimum": 1, "maximum": 65535, "description": "counted from 1"},
     "times_s": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},

@@ -77,6 +77,7 @@ TEST(Columns, AreAsTallInAPartlyFlamingCell) {
 
 TEST(Columns, EmbersAreDetachedAboveTheFlame) {
     FireParameters p;
+    p.embers.drift = false;
     p.flaming_heat_flux_W_m2 = 2e6;
     auto state = advance(nullptr, frame(0.0, {2e6F, 6e6F}), p);
     state = advance(&state, frame(6.0, {1e7F, 0.0F}), p);  // 5 m, cut at 2 + sqrt(2)

@@ -30,7 +30,7 @@ TEST(Load, ShortestScenarioGetsTheDefaults) {
     EXPECT_NEAR(s.fire.scar.amplitude1_K + s.fire.scar.amplitude2_K + s.fire.scar.floor_K - 273.15, 809.66, 1e-9);
     EXPECT_EQ(s.fire.seed, 1U);
     EXPECT_EQ(s.flame.parameters.temperature_K, 1100.0);
-    EXPECT_EQ(s.flame.soot_volume_fraction, 2e-7);
+    EXPECT_EQ(s.flame.gas.soot_volume_fraction, 2e-7);
     EXPECT_FALSE(s.flame.grey_absorption_per_m.has_value());
     EXPECT_FALSE(s.flame.off);
     EXPECT_EQ(s.surface.unburned, "grass_dry");
