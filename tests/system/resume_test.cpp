@@ -67,9 +67,8 @@ TEST(Resume, LeavesTheSameBytesAsAStraightRun) {
     prepare("stopped");
     for (int frame = 0; frame < kFrames; ++frame) {
         EXPECT_EQ(file_bytes(folder / "stopped" / state_name(frame)), file_bytes(folder / "straight" / state_name(frame)));
-        if (std::filesystem::exists(folder / "straight" / ember_name(frame)))
-            EXPECT_EQ(file_bytes(folder / "stopped" / ember_name(frame)),
-                      file_bytes(folder / "straight" / ember_name(frame)));
+        if (!std::filesystem::exists(folder / "straight" / ember_name(frame))) continue;
+        EXPECT_EQ(file_bytes(folder / "stopped" / ember_name(frame)), file_bytes(folder / "straight" / ember_name(frame)));
     }
 }
 
