@@ -8,15 +8,17 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "render/ground_mix.h"
+#include "render/light_at.h"
 #include "render/parallel.h"
 #include "render/receiver_light.h"
 #include "render/scene.h"
 #include "render/scene_tables.h"
+#include "render/terrain_sight.h"
 
 namespace pyroscene::render {
 namespace {
 
-constexpr int kSkylinePlanes = 16;
+constexpr double kRough_m = 1e-3;  ///< terrain that varies less is a horizontal plane
 
 /// Cells whose centre lies within reach of any brick column's flames, in map order; they get rows 0, 1, 2, ...
 std::vector<std::size_t> receivers(const LightScene& shared, GroundIrradiance& light) {
@@ -50,19 +52,12 @@ std::vector<std::size_t> receivers(const LightScene& shared, GroundIrradiance& l
     return cells;
 }
 
-Receiver receiver_at(const RenderScene& scene, std::size_t cell) {
-    const MapGrid& grid = scene.terrain->grid();
-    const int row = static_cast<int>(cell / static_cast<std::size_t>(grid.cols));
-    const int col = static_cast<int>(cell % static_cast<std::size_t>(grid.cols));
-    Receiver receiver;
-    receiver.x_m = grid.x_centre_m(col) - scene.scene_origin_m.x;
-    receiver.y_m = grid.y_centre_m(row) - scene.scene_origin_m.y;
-    const double half_m = 0.499 * grid.cell_m;
-    const auto height = [&](double dx, double dy) { return scene.terrain->height_at(receiver.x_m + dx, receiver.y_m + dy); };
-    receiver.normal = normalized(Vec3{(height(-half_m, 0.0) - height(half_m, 0.0)) / (2.0 * half_m),
-                                      (height(0.0, -half_m) - height(0.0, half_m)) / (2.0 * half_m), 1.0});
-    return receiver;
-}
+/// What the rows of GroundIrradiance become: the first look in full, and what the reflections between slopes need.
+struct Rows {
+    GroundIrradiance& light;
+    std::vector<std::vector<TerrainPatch>> patches;  ///< [row]; empty on a plane
+    std::vector<float> through;                      ///< [row][lambda] share that flames let through; only with patches
+};
 
 /// From what a receiver sees to its irradiances on the transport grid. One per thread.
 class RowWriter {
@@ -78,26 +73,34 @@ public:
           opacity_(through_.size()),
           of_moment_(through_.size()) {}
 
-    void write(const Receiver& receiver, std::size_t row, GroundIrradiance& out) {
+    /// Irradiance by flames alone; adds to `irradiance` and leaves their opacity for write().
+    void flame(const Receiver& receiver, float* irradiance) {
         light_.compute(receiver);
-        float* flame = out.irradiance_W_m2_um.data() + row * static_cast<std::size_t>(out.stride);
-        sum_flame(flame);
+        sum_flame(irradiance);
+    }
+
+    void write(const Receiver& receiver, std::size_t row, Rows& out) {
+        GroundIrradiance& light = out.light;
+        const auto at = [&](std::vector<float>& values) {
+            return values.data() + row * static_cast<std::size_t>(light.stride);
+        };
+        flame(receiver, at(light.irradiance_W_m2_um));
         for (std::size_t l = 0; l < through_.size(); ++l) through_[l] = 1.0F - opacity_[l] / static_cast<float>(kPi);
+        if (!out.through.empty()) std::copy(through_.begin(), through_.end(), at(out.through));
+        terrain_.clear();
+        const double hidden_sr = shared_->rough ? look_at_terrain(receiver, light.row_of_cell, out.patches[row]) : 0.0;
+        const auto open = static_cast<float>(1.0 - hidden_sr / kPi);
         const radiometry::ViewAtmosphere& air = *shared_->scene.atmosphere;
-        const auto n = static_cast<std::size_t>(out.lambda_count);
-        if (!out.sky_irradiance_W_m2_um.empty()) {
-            float* sky = out.sky_irradiance_W_m2_um.data() + row * static_cast<std::size_t>(out.stride);
-            for (std::size_t l = 0; l < n; ++l) sky[l] = through_[l] * air.diffuse_irradiance_W_m2_um[l];
-        }
-        if (out.thermal_irradiance_W_m2_um.empty()) return;
-        const double open = 1.0 - (shared_->rough ? look_at_terrain(receiver) : 0.0) / kPi;
-        float* thermal = out.thermal_irradiance_W_m2_um.data() + row * static_cast<std::size_t>(out.stride);
-        const float* emission = terrain_.part(GroundSpectra::Emission);
-        const float* reflection = terrain_.part(GroundSpectra::ThermalSky);
-        for (std::size_t l = 0; l < n; ++l) {
-            thermal[l] =
-                through_[l] * (static_cast<float>(open) * air.thermal_irradiance_W_m2_um[l] + emission[l] + reflection[l]);
-        }
+        const auto sum = [&](std::vector<float>& into, const std::vector<float>& sky, const float* a, const float* b) {
+            if (into.empty()) return;
+            float* irradiance = at(into);
+            for (std::size_t l = 0; l < static_cast<std::size_t>(light.lambda_count); ++l)
+                irradiance[l] = through_[l] * (open * sky[l] + a[l] + b[l]);
+        };
+        sum(light.sky_irradiance_W_m2_um, air.diffuse_irradiance_W_m2_um, terrain_.part(GroundSpectra::Sun),
+            terrain_.part(GroundSpectra::Sky));
+        sum(light.thermal_irradiance_W_m2_um, air.thermal_irradiance_W_m2_um, terrain_.part(GroundSpectra::Emission),
+            terrain_.part(GroundSpectra::ThermalSky));
     }
 
 private:
@@ -116,20 +119,30 @@ private:
         for (std::size_t l = 0; l < lambdas.size(); ++l) irradiance[l] = std::max(irradiance[l], 0.0F);
     }
 
-    /// First order light of the slopes that hide the sky: their own emission and the open sky they reflect.
-    double look_at_terrain(const Receiver& receiver) {
+    /// The slopes that hide the sky: fills `terrain_` with their own emission and what they reflect of sun and open sky,
+    /// and `patches` with where they are. Returns the cosine-weighted solid angle that they fill.
+    double look_at_terrain(const Receiver& receiver, const std::vector<std::int32_t>& row_of_cell,
+                           std::vector<TerrainPatch>& patches) {
         const RenderScene& scene = shared_->scene;
         const TerrainMesh& terrain = *scene.terrain;
-        terrain_.clear();
+        const MapGrid& grid = terrain.grid();
+        const double far_m = std::hypot(grid.cols * grid.cell_m, grid.rows * grid.cell_m);
         double seen_sr = 0.0;
-        light_.hidden_by_terrain(receiver, kSkylinePlanes, [&](Vec3 direction, double weight_sr) {
+        hidden_by_terrain(terrain, receiver, shared_->settings.directions, [&](Vec3 direction, double weight_sr) {
             const Vec3 from{receiver.x_m, receiver.y_m, terrain.height_at(receiver.x_m, receiver.y_m) + 0.1};
-            const auto hit = terrain.intersect(from, from + 4.0 * shared_->settings.reach_m * direction);
+            const auto hit = terrain.intersect(from, from + far_m * direction);
             if (!hit) return;
             const GroundCell ground = ground_cell(scene, *tables_, hit->point_m);
             if (!(ground.base_K > 0.0)) return;
-            add_ground(*tables_, ground, weight_sr, {}, mix_);
+            GroundLight light;
+            if (tables_->has_sun) light.sun_cosine = sun_cosine(scene, *hit);
+            add_ground(*tables_, ground, weight_sr, light, mix_);
             seen_sr += weight_sr;
+            const int col =
+                std::clamp(static_cast<int>(grid.col_at(hit->point_m.x + scene.scene_origin_m.x)), 0, grid.cols - 1);
+            const int row =
+                std::clamp(static_cast<int>(grid.row_at(hit->point_m.y + scene.scene_origin_m.y)), 0, grid.rows - 1);
+            patches.push_back({row_of_cell[grid.index(row, col)], ground.base_material, static_cast<float>(weight_sr)});
         });
         mix_.resolve(nullptr, terrain_);
         return seen_sr;
@@ -144,18 +157,80 @@ private:
     std::vector<float> through_, opacity_, of_moment_;
 };
 
+/// Reflections beyond the first look, for each kind of light. The first look took for granted that slopes in view receive
+/// the whole open sky and no flame light.
+void add_bounces(const LightScene& shared, const SceneTables& tables, Rows& rows) {
+    const GroundLightSettings& settings = shared.settings;
+    if (rows.through.empty() || settings.bounces < 2) return;
+    const radiometry::ViewAtmosphere& air = *shared.scene.atmosphere;
+    const auto reflect = [&](std::vector<float>& irradiance, const std::vector<float>* granted) {
+        if (irradiance.empty()) return;
+        std::vector<float> change = irradiance;
+        const auto stride = static_cast<std::size_t>(rows.light.stride);
+        for (std::size_t i = 0; granted != nullptr && i < change.size(); ++i) {
+            const std::size_t l = i % stride;
+            if (l < granted->size()) change[i] -= (*granted)[l];
+        }
+        reflect_between_slopes(tables, rows.patches, rows.through, settings.bounces, settings.decay, irradiance, change);
+    };
+    reflect(rows.light.irradiance_W_m2_um, nullptr);
+    reflect(rows.light.sky_irradiance_W_m2_um, &air.diffuse_irradiance_W_m2_um);
+    reflect(rows.light.thermal_irradiance_W_m2_um, &air.thermal_irradiance_W_m2_um);
+}
+
+/// Compares direct flame light with that of twice as many directions at up to 128 receivers, evenly spread over the rows.
+LightSamplingError sampling_error(const LightScene& shared, const SceneTables& tables,
+                                  const std::vector<std::size_t>& cells) {
+    constexpr std::size_t kReceivers = 128;
+    const std::size_t step = std::max<std::size_t>(1, cells.size() / kReceivers);
+    GroundLightSettings doubled = shared.settings;
+    doubled.directions *= 2;
+    const LightScene finer(shared.scene, doubled);
+    const std::size_t count = (cells.size() + step - 1) / step;
+    std::vector<std::array<double, 2>> sums(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        const Receiver receiver = receiver_at(shared.scene, cells[i * step]);
+        std::vector<float> irradiance(static_cast<std::size_t>(tables.stride));
+        for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
+            std::fill(irradiance.begin(), irradiance.end(), 0.0F);
+            RowWriter(which == 0 ? shared : finer, tables).flame(receiver, irradiance.data());
+            for (const float e : irradiance) sums[i][which] += static_cast<double>(e);
+        }
+    });
+    LightSamplingError error;
+    double total = 0.0, finer_total = 0.0, squares = 0.0, weights = 0.0;
+    for (const auto& [coarse, fine] : sums) {
+        total += coarse;
+        finer_total += fine;
+        if (!(fine > 0.0)) continue;
+        ++error.receivers;
+        squares += (coarse - fine) * (coarse - fine) / fine;
+        weights += fine;
+    }
+    if (finer_total > 0.0) error.total_relative = total / finer_total - 1.0;
+    if (weights > 0.0) error.rms_relative = std::sqrt(squares / weights);
+    return error;
+}
+
+void check_settings(const GroundLightSettings& settings) {
+    if (settings.directions < 4 || !(settings.reach_m > 0.0) || settings.bounces < 1 || settings.decay < 1) {
+        throw input_error("ground light", "directions must be at least 4, reach_m above 0, bounces and decay at least 1");
+    }
+}
+
 }  // namespace
 
 GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSettings& settings, const Monitor& monitor) {
     check_scene(scene);
-    if (settings.directions < 4 || !(settings.reach_m > 0.0)) {
-        throw input_error("ground light", "directions must be at least 4 and reach_m above 0");
-    }
+    check_settings(settings);
     const SceneTables tables(scene);
     GroundIrradiance light;
     light.grid = scene.terrain->grid();
     light.lambda_count = tables.lambdas;
     light.stride = tables.stride;
+    const auto [lowest_m, highest_m] = scene.terrain->height_range_m();
+    const bool rough = highest_m - lowest_m > kRough_m;
+    if (rough) light.sky_view = sky_view(scene);
     if (scene.flame->empty()) {
         light.row_of_cell.assign(light.grid.size(), -1);
         return light;
@@ -165,7 +240,10 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
     const std::size_t values = cells.size() * static_cast<std::size_t>(light.stride);
     light.irradiance_W_m2_um.resize(values);
     if (tables.has_sky) light.sky_irradiance_W_m2_um.resize(values);
-    if (tables.has_thermal_sky || shared.rough) light.thermal_irradiance_W_m2_um.resize(values);
+    if (tables.has_thermal_sky || rough) light.thermal_irradiance_W_m2_um.resize(values);
+    Rows rows{light, {}, {}};
+    if (rough) rows.patches.resize(cells.size());
+    if (rough && settings.bounces > 1) rows.through.resize(values);
 
     constexpr std::size_t kCellsPerTask = 32;
     tbb::enumerable_thread_specific<RowWriter> writers([&] { return RowWriter(shared, tables); });
@@ -175,9 +253,11 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
         RowWriter& writer = writers.local();
         const std::size_t end = std::min((task + 1) * kCellsPerTask, cells.size());
         for (std::size_t row = task * kCellsPerTask; row < end; ++row)
-            writer.write(receiver_at(scene, cells[row]), row, light);
+            writer.write(receiver_at(scene, cells[row]), row, rows);
         progress.advance();
     });
+    add_bounces(shared, tables, rows);
+    if (settings.estimate_error) light.sampling_error = sampling_error(shared, tables, cells);
     return light;
 }
 

@@ -25,6 +25,7 @@ void GroundMix::add(int material, double temperature_K, double weight, const Gro
     Reflection& reflection = reflection_[static_cast<std::size_t>(material)];
     reflection.sun += weight * light.sun_cosine;
     reflection.open += weight * light.open;
+    reflection.hidden += weight * light.hidden;
     for (int j = 0; j < light.row_count; ++j) {
         const auto row = light.row[static_cast<std::size_t>(j)];
         const double share = weight * light.weight[static_cast<std::size_t>(j)];
@@ -72,6 +73,8 @@ void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out)
         if (t.has_sun) add(t.sun, reflection.sun, GroundSpectra::Sun);
         if (t.has_sky) add(t.sky, reflection.open, GroundSpectra::Sky);
         if (t.has_thermal_sky) add(t.thermal_sky, reflection.open, GroundSpectra::ThermalSky);
+        add(t.slopes_solar, reflection.hidden, GroundSpectra::Sky);
+        add(t.slopes_thermal, reflection.hidden, GroundSpectra::ThermalSky);
         reflection = {};
     }
     if (flame_light != nullptr) {

@@ -22,13 +22,13 @@ struct GroundSpectra {
 };
 
 /// Light on a piece of ground: the cosine of the sun (0 in shadow) and up to four rows of GroundIrradiance around it;
-/// `open` is the rest of the weight, ground without a row under the whole sky.
+/// `open` is the rest of the weight, ground without a row, as far as it sees the sky; `hidden` as far as it sees terrain.
 struct GroundLight {
     double sun_cosine = 0.0;
     int row_count = 0;
     std::array<std::int32_t, 4> row{};
     std::array<double, 4> weight{};
-    double open = 1.0;
+    double open = 1.0, hidden = 0.0;
 };
 
 /// Ground as plain weights per material, temperature and light, gathered over rays before any wavelength is touched: what
@@ -45,7 +45,7 @@ public:
 
 private:
     struct Reflection {
-        double sun = 0.0, open = 0.0;
+        double sun = 0.0, open = 0.0, hidden = 0.0;
     };
     struct LitPart {
         std::int32_t row;

@@ -13,14 +13,17 @@ void light_around(const GroundIrradiance& light, double x_m, double y_m, GroundL
     const int r = std::min(static_cast<int>(row), std::max(grid.rows - 2, 0));
     const double fc = col - c, fr = row - r;
     out.row_count = 0;
-    out.open = 0.0;
+    out.open = out.hidden = 0.0;
     for (int j = 0; j < 4; ++j) {
         const int dr = j / 2, dc = j % 2;
         const double weight = (dr != 0 ? fr : 1.0 - fr) * (dc != 0 ? fc : 1.0 - fc);
         if (weight == 0.0) continue;
-        const std::int32_t found = light.row_of_cell[grid.index(r + dr, c + dc)];
+        const std::size_t cell = grid.index(r + dr, c + dc);
+        const std::int32_t found = light.row_of_cell[cell];
         if (found < 0) {
-            out.open += weight;
+            const double sky = light.sky_view.empty() ? 1.0 : static_cast<double>(light.sky_view[cell]);
+            out.open += weight * sky;
+            out.hidden += weight * (1.0 - sky);
             continue;
         }
         const auto i = static_cast<std::size_t>(out.row_count++);

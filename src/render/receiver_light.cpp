@@ -55,24 +55,6 @@ LightScene::LightScene(const RenderScene& s, const GroundLightSettings& g)
     rough = high - low > 1e-3;
 }
 
-double PlaneWeight::below(double slope) const noexcept {
-    if (std::isinf(slope)) return slope > 0.0 ? along * kPi / 4.0 + up / 2.0 : -along * kPi / 4.0 + up / 2.0;
-    const double cos2 = 1.0 / (1.0 + slope * slope);
-    const double flat = 0.5 * up * slope * slope * cos2;
-    return along == 0.0 ? flat : flat + 0.5 * along * (std::atan(slope) + slope * cos2);
-}
-
-double skyline_slope(const TerrainMesh& terrain, Vec3 from_m, double dx, double dy, double reach_m) noexcept {
-    const double step_m = terrain.grid().cell_m;
-    double slope = -std::numeric_limits<double>::infinity();
-    for (double r = step_m; r <= reach_m; r += step_m) {
-        const double h = terrain.height_at(from_m.x + r * dx, from_m.y + r * dy);
-        if (!(h > -1e9)) break;  // left the raster
-        slope = std::max(slope, (h - from_m.z) / r);
-    }
-    return slope;
-}
-
 ReceiverLight::ReceiverLight(const LightScene& shared)
     : shared_(&shared),
       kernels_(&spectral_kernels()),

@@ -64,15 +64,27 @@ struct RenderScene {
     Vec3 to_sun;          ///< unit vector, scene frame; z <= 0 = night
 };
 
-/// Settings of the light that flames throw on the ground.
+/// Settings of the light that flames and slopes throw on the ground.
 struct GroundLightSettings {
-    int directions = 64;     ///< vertical planes around a receiver; each is cut into strata of elevation
+    int directions = 64;     ///< vertical planes around a receiver for flames (each cut into strata of elevation), and
+                             ///< directions of the hemisphere for terrain
     double reach_m = 500.0;  ///< a flame farther away than this does not count
+    int bounces = 3;         ///< reflections on the ground between a flame and the camera; 1 = direct light of flames only
+    int decay = 4;           ///< by this factor fewer directions from each bounce to the next (thesis 6.4: 64, 3, 4)
+    bool estimate_error = false;  ///< fill GroundIrradiance::sampling_error
 };
 
-/// Light on the ground near flames, independent of any camera, on the map grid of the terrain. Irradiances are means over
-/// the cell, on its slope: from flames, and from the sky as far as flames and terrain let it through. Cells without a row
-/// receive nothing from flames and see the whole sky.
+/// How far the light of flames is from that of twice as many directions, on an even sample of receivers.
+struct LightSamplingError {
+    int receivers = 0;
+    double total_relative = 0.0;  ///< of the sum over receivers and wavelengths, signed
+    double rms_relative = 0.0;    ///< per receiver, weighted by its irradiance
+};
+
+/// Light on the ground, independent of any camera, on the map grid of the terrain. Cells near flames have a row with their
+/// irradiances, means over the cell on its slope: from flames, and from the sky as far as flames and terrain let it
+/// through, with what slopes in view emit and reflect. Cells without a row receive nothing from flames; of their hemisphere
+/// the share `sky_view` is sky, the rest ambient terrain.
 struct GroundIrradiance {
     MapGrid grid;
     std::vector<std::int32_t> row_of_cell;  ///< [map cell] row into the arrays below, -1 = none
@@ -81,9 +93,12 @@ struct GroundIrradiance {
     std::vector<float> irradiance_W_m2_um;          ///< [row][lambda] by flames
     std::vector<float> sky_irradiance_W_m2_um;      ///< [row][lambda] diffuse sun; empty at night
     std::vector<float> thermal_irradiance_W_m2_um;  ///< [row][lambda] thermal sky and glowing slopes; empty if none
+    std::vector<float> sky_view;                    ///< [map cell] 0 to 1; empty on a plane: 1 everywhere
+    LightSamplingError sampling_error;
 };
 
-/// One bounce: hemisphere quadrature at each terrain cell near flames, through the flame field, occluded by terrain.
+/// Hemisphere quadrature at each terrain cell near flames, through the flame field, occluded by terrain, and reflections
+/// between slopes.
 /// Deterministic for any thread count. Method and accuracy: docs/physics-render.md.
 GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSettings& settings,
                                    const Monitor& monitor = {});

@@ -121,7 +121,7 @@ SceneTables::SceneTables(const RenderScene& scene) {
     truth_absorption_per_m = absorption_per_m[static_cast<std::size_t>(nearest - optics.lambda_um.begin())];
 
     has_sun = scene.to_sun.z > 0.0 && any_positive(air.direct_normal_irradiance_W_m2_um);
-    has_sky = any_positive(air.diffuse_irradiance_W_m2_um);
+    has_sky = has_sun || any_positive(air.diffuse_irradiance_W_m2_um);  // slopes reflect the sun as a part of the sky
     has_thermal_sky = any_positive(air.thermal_irradiance_W_m2_um);
     const auto reflectance = [&](int m, int l) {
         return static_cast<double>(optics.reflectance[static_cast<std::size_t>(m) * static_cast<std::size_t>(lambdas) +
@@ -135,11 +135,40 @@ SceneTables::SceneTables(const RenderScene& scene) {
     sun = reflected(air.direct_normal_irradiance_W_m2_um);
     sky = reflected(air.diffuse_irradiance_W_m2_um);
     thermal_sky = reflected(air.thermal_irradiance_W_m2_um);
+    set_slopes(scene);
     for (int m = 0; m < materials; ++m) {
         double sum = 0.0;
         for (int l = 0; l < lambdas; ++l) sum += 1.0 - reflectance(m, l);
         broadband_emissivity.push_back(sum / lambdas);
     }
+}
+
+void SceneTables::set_slopes(const RenderScene& scene) {
+    const radiometry::ViewAtmosphere& air = *scene.atmosphere;
+    std::vector<double> share(static_cast<std::size_t>(materials), 0.0);
+    for (const std::uint8_t material : scene.cover->values)
+        share[material] += 1.0 / static_cast<double>(scene.cover->values.size());
+    const PlanckRows::Lookup ambient = planck.at(ambient_K);
+    std::vector<double> solar(static_cast<std::size_t>(lambdas)), thermal(solar.size());
+    for (std::size_t l = 0; l < solar.size(); ++l) {
+        double reflectance = 0.0, black_body = 0.0;  // the mean over the materials, divided by pi
+        for (int m = 0; m < materials; ++m)
+            reflectance += share[static_cast<std::size_t>(m)] * static_cast<double>(reflectance_per_pi[m][l]);
+        for (int j = 0; j < ambient.count; ++j)
+            black_body += static_cast<double>(ambient.weight[static_cast<std::size_t>(j)] * planck.row(ambient.row + j)[l]);
+        const double sun_W_m2_um =
+            has_sun ? scene.to_sun.z * static_cast<double>(air.direct_normal_irradiance_W_m2_um[l]) : 0.0;
+        solar[l] = kPi * reflectance * (sun_W_m2_um + static_cast<double>(air.diffuse_irradiance_W_m2_um[l]));
+        thermal[l] = kPi * ((1.0 - kPi * reflectance) * black_body +
+                            reflectance * static_cast<double>(air.thermal_irradiance_W_m2_um[l]));
+    }
+    const auto reflected = [&](const std::vector<double>& irradiance) {
+        return rows(*this, [&](int m, int l) {
+            return static_cast<double>(reflectance_per_pi[m][l]) * irradiance[static_cast<std::size_t>(l)];
+        });
+    };
+    slopes_solar = reflected(solar);
+    slopes_thermal = reflected(thermal);
 }
 
 }  // namespace pyroscene::render

@@ -31,11 +31,16 @@ struct SceneTables {
     double truth_absorption_per_m = 0.0;  ///< at the node nearest 4.0 um
 
     Rows emissivity, reflectance_per_pi;
-    Rows sun, sky, thermal_sky;  ///< radiance reflected from the whole, open sky; sun: per cosine of incidence
+    Rows sun, sky, thermal_sky;         ///< radiance reflected from the whole, open sky; sun: per cosine of incidence
+    Rows slopes_solar, slopes_thermal;  ///< radiance reflected from a hemisphere full of ambient terrain of the scene's mean
+        ///< material: sun and sky that it reflects, what it emits and reflects of the thermal sky
     bool has_sun = false, has_sky = false, has_thermal_sky = false;
     std::vector<double>
         broadband_emissivity;  ///< per material: plain mean over the wavelengths, for the true radiant exitance
     double front_K = 0.0, ambient_K = 0.0;
+
+private:
+    void set_slopes(const RenderScene& scene);
 };
 
 /// Checks that the parts of a scene fit together; throws an input error that names the part.
