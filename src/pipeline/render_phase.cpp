@@ -232,6 +232,29 @@ void report_image(const GroupJob& job, const RadianceImage& image, const render:
     report.count("flame_bricks/" + job.acquisition.id, static_cast<std::int64_t>(scene.flame->bricks.size()));
 }
 
+render::GroundIrradiance ground_light(const GroupJob& job, const render::RenderScene& scene, const Monitor& monitor,
+                                      RunReport& report) {
+    const PhaseTimer timer(report, "render/ground_irradiance");
+    const auto& wanted = job.scenario.render;
+    using Flames = render::GroundLightSettings::Flames;
+    render::GroundLightSettings settings;
+    settings.flames = !wanted.flame_light ? Flames::None : wanted.point_sources ? Flames::PointSources : Flames::Hemisphere;
+    settings.directions = wanted.light_directions;
+    settings.reach_m = std::max(wanted.light_reach_m, 1e-3);
+    settings.bounces = wanted.light_bounces;
+    settings.decay = wanted.light_decay;
+    settings.point_source_cut = wanted.point_source_cut;
+    settings.estimate_error = true;
+    auto light = render::ground_irradiance(scene, settings, {{}, monitor.cancelled});
+    const auto& error = light.sampling_error;
+    if (error.receivers > 0) {
+        const auto name = "flame_light/" + job.acquisition.id + job.files.suffix;
+        report.record(name + "/doubling_changes_total_by_percent", 100.0 * error.total_relative);
+        report.record(name + "/doubling_changes_cells_by_percent_rms", 100.0 * error.rms_relative);
+    }
+    return light;
+}
+
 }  // namespace
 
 void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report) {
@@ -261,12 +284,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     scene.to_sun = scenario.render.sun ? sun_direction(sun.centre(), map.convergence_rad(in.origin_m.x, in.origin_m.y))
                                        : Vec3{0.0, 0.0, -1.0};
 
-    std::optional<render::GroundIrradiance> light;
-    if (scenario.render.flame_light && !job.fire.flame.empty()) {
-        const PhaseTimer timer(report, "render/ground_irradiance");
-        light = render::ground_irradiance(scene, {scenario.render.light_directions, scenario.render.light_reach_m},
-                                          {{}, monitor.cancelled});
-    }
+    const auto light = ground_light(job, scene, monitor, report);
 
     const bool point_sampled =
         job.sensor.psf_across.shape == sensors::Psf::Shape::None && job.sensor.psf_along.shape == sensors::Psf::Shape::None;
@@ -297,7 +315,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     RadianceImage image;
     {
         const PhaseTimer timer(report, "render/image");
-        image = render::render_image(scene, light ? &*light : nullptr, request, monitor);
+        image = render::render_image(scene, &light, request, monitor);
     }
     report_image(job, image, scene, report);
 

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/constants.h"
 #include "base/error.h"
 #include "render/ground_mix.h"
 #include "render/light_at.h"
 #include "render/parallel.h"
+#include "render/point_sources.h"
 #include "render/receiver_light.h"
 #include "render/scene.h"
 #include "render/scene_tables.h"
@@ -62,8 +64,9 @@ struct Rows {
 /// From what a receiver sees to its irradiances on the transport grid. One per thread.
 class RowWriter {
 public:
-    RowWriter(const LightScene& shared, const SceneTables& tables)
+    RowWriter(const LightScene& shared, const SceneTables& tables, const PointSources* points)
         : shared_(&shared),
+          points_(points),
           tables_(&tables),
           kernels_(&spectral_kernels()),
           light_(shared),
@@ -75,6 +78,7 @@ public:
 
     /// Irradiance by flames alone; adds to `irradiance` and leaves their opacity for write().
     void flame(const Receiver& receiver, float* irradiance) {
+        if (points_ != nullptr) return points_->add(shared_->scene, receiver, irradiance);
         light_.compute(receiver);
         sum_flame(irradiance);
     }
@@ -149,6 +153,7 @@ private:
     }
 
     const LightScene* shared_;
+    const PointSources* points_;  ///< null: hemisphere quadrature
     const SceneTables* tables_;
     const SpectralKernels* kernels_;
     ReceiverLight light_;
@@ -193,7 +198,7 @@ LightSamplingError sampling_error(const LightScene& shared, const SceneTables& t
         std::vector<float> irradiance(static_cast<std::size_t>(tables.stride));
         for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
             std::fill(irradiance.begin(), irradiance.end(), 0.0F);
-            RowWriter(which == 0 ? shared : finer, tables).flame(receiver, irradiance.data());
+            RowWriter(which == 0 ? shared : finer, tables, nullptr).flame(receiver, irradiance.data());
             for (const float e : irradiance) sums[i][which] += static_cast<double>(e);
         }
     });
@@ -213,8 +218,11 @@ LightSamplingError sampling_error(const LightScene& shared, const SceneTables& t
 }
 
 void check_settings(const GroundLightSettings& settings) {
-    if (settings.directions < 4 || !(settings.reach_m > 0.0) || settings.bounces < 1 || settings.decay < 1) {
-        throw input_error("ground light", "directions must be at least 4, reach_m above 0, bounces and decay at least 1");
+    if (settings.directions < 4 || !(settings.reach_m > 0.0) || settings.bounces < 1 || settings.decay < 1 ||
+        !(settings.point_source_cut >= 0.0)) {
+        throw input_error("ground light",
+                          "directions must be at least 4, reach_m above 0, bounces and decay at least 1, "
+                          "point_source_cut not negative");
     }
 }
 
@@ -231,7 +239,7 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
     const auto [lowest_m, highest_m] = scene.terrain->height_range_m();
     const bool rough = highest_m - lowest_m > kRough_m;
     if (rough) light.sky_view = sky_view(scene);
-    if (scene.flame->empty()) {
+    if (scene.flame->empty() || settings.flames == GroundLightSettings::Flames::None) {
         light.row_of_cell.assign(light.grid.size(), -1);
         return light;
     }
@@ -241,12 +249,16 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
     light.irradiance_W_m2_um.resize(values);
     if (tables.has_sky) light.sky_irradiance_W_m2_um.resize(values);
     if (tables.has_thermal_sky || rough) light.thermal_irradiance_W_m2_um.resize(values);
+    std::optional<PointSources> points;
+    if (settings.flames == GroundLightSettings::Flames::PointSources)
+        points.emplace(scene, tables, settings.point_source_cut, settings.reach_m);
     Rows rows{light, {}, {}};
     if (rough) rows.patches.resize(cells.size());
     if (rough && settings.bounces > 1) rows.through.resize(values);
 
     constexpr std::size_t kCellsPerTask = 32;
-    tbb::enumerable_thread_specific<RowWriter> writers([&] { return RowWriter(shared, tables); });
+    tbb::enumerable_thread_specific<RowWriter> writers(
+        [&] { return RowWriter(shared, tables, points ? &*points : nullptr); });
     Progress progress(monitor, static_cast<int>((cells.size() + kCellsPerTask - 1) / kCellsPerTask));
     tbb::parallel_for(std::size_t{0}, (cells.size() + kCellsPerTask - 1) / kCellsPerTask, [&](std::size_t task) {
         progress.stop_if_cancelled();
@@ -257,7 +269,7 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
         progress.advance();
     });
     add_bounces(shared, tables, rows);
-    if (settings.estimate_error) light.sampling_error = sampling_error(shared, tables, cells);
+    if (settings.estimate_error && !points) light.sampling_error = sampling_error(shared, tables, cells);
     return light;
 }
 

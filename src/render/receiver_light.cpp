@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPointsNearFlame = 8;
 constexpr int kPlanesNearFlame = 4;  ///< a point near flame has this many times fewer planes
-constexpr int kLeastPlanes = 8;      ///< through a flame however narrow it looks
+constexpr int kLeastPlanes = 8;      ///< through a flame however narrow it looks, or an eighth of all
 constexpr int kStrata = PlaneTrace::kLanes;
 constexpr float kLeastSlope = 1e-6F;
 constexpr double kOpaqueDepth = 9.0;
@@ -167,8 +167,8 @@ void ReceiverLight::compute_point(double x_m, double y_m, const Receiver& receiv
     const Vec3 from{x_m, y_m, shared_->scene.terrain->height_at(x_m, y_m)};
     for (const Arc arc : arcs_) {
         const double begin = azimuth_of_diamond(arc.begin), end = azimuth_of_diamond(arc.end);
-        const int planes =
-            std::max(kLeastPlanes, static_cast<int>(std::ceil((end - begin) / (2.0 * kPi) * planes_around - 1e-9)));
+        const int planes = std::max({kLeastPlanes, planes_around / kLeastPlanes,
+                                     static_cast<int>(std::ceil((end - begin) / (2.0 * kPi) * planes_around - 1e-9))});
         const double width = (end - begin) / planes;
         for (int p = 0; p < planes; ++p) trace_plane(from, receiver, begin + (p + 0.5) * width, weight * width);
     }

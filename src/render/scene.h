@@ -66,12 +66,16 @@ struct RenderScene {
 
 /// Settings of the light that flames and slopes throw on the ground.
 struct GroundLightSettings {
+    /// None: only how slopes hide the sky. Hemisphere: quadrature through the flames. PointSources: thesis 4.4, for
+    /// comparison, without anything in the way.
+    enum class Flames { None, Hemisphere, PointSources } flames = Flames::Hemisphere;
     int directions = 64;     ///< vertical planes around a receiver for flames (each cut into strata of elevation), and
                              ///< directions of the hemisphere for terrain
     double reach_m = 500.0;  ///< a flame farther away than this does not count
     int bounces = 3;         ///< reflections on the ground between a flame and the camera; 1 = direct light of flames only
     int decay = 4;           ///< by this factor fewer directions from each bounce to the next (thesis 6.4: 64, 3, 4)
-    bool estimate_error = false;  ///< fill GroundIrradiance::sampling_error
+    double point_source_cut = 0.01;  ///< a point source ends where its irradiance is this fraction of that in 1 m distance
+    bool estimate_error = false;     ///< fill GroundIrradiance::sampling_error
 };
 
 /// How far the light of flames is from that of twice as many directions, on an even sample of receivers.

@@ -179,6 +179,11 @@ RenderSettings read_render(const config::Node& node) {
         static_cast<int>(node.integer("light_directions", render.light_directions, Range::between(4, 65536)));
     render.light_reach_m = node.number("light_reach_m", render.light_reach_m, Range::between(0.0, 10000.0));
     render.flame_light = node.boolean("flame_light", render.flame_light);
+    render.point_sources =
+        node.choice("flame_light_model", "hemisphere", {"hemisphere", "point_sources"}) == "point_sources";
+    render.point_source_cut = node.number("point_source_cut", render.point_source_cut, Range::between(0.0, 1.0));
+    render.light_bounces = static_cast<int>(node.integer("light_bounces", render.light_bounces, Range::between(1, 16)));
+    render.light_decay = static_cast<int>(node.integer("light_decay", render.light_decay, Range::between(1, 64)));
     render.sun = node.boolean("sun", render.sun);
     node.finish();
     return render;

@@ -73,6 +73,9 @@ struct RenderSettings {
     int light_directions = 64;
     double light_reach_m = 500.0;
     bool flame_light = true;
+    bool point_sources = false;  ///< flame light by point sources instead of the hemisphere
+    double point_source_cut = 0.01;
+    int light_bounces = 3, light_decay = 4;
     bool sun = true;  ///< false = solar terms off whatever the hour
 };
 

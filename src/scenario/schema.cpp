@@ -190,6 +190,10 @@ constexpr const char* kSchema = R"json({
         "light_directions": {"type": "integer", "minimum": 4, "maximum": 65536, "default": 64},
         "light_reach_m": {"type": "number", "minimum": 0, "maximum": 10000, "default": 500},
         "flame_light": {"type": "boolean", "default": true},
+        "flame_light_model": {"enum": ["hemisphere", "point_sources"], "default": "hemisphere"},
+        "point_source_cut": {"type": "number", "minimum": 0, "maximum": 1, "default": 0.01},
+        "light_bounces": {"type": "integer", "minimum": 1, "maximum": 16, "default": 3},
+        "light_decay": {"type": "integer", "minimum": 1, "maximum": 64, "default": 4},
         "sun": {"type": "boolean", "default": true}
       }
     },

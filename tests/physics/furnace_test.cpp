@@ -114,8 +114,10 @@ TEST_P(Furnace, RoughGroundWithFrontAndScar) {
         scene.surface.burned[i] = 1;
         scene.surface.front_fraction[i] = 0.3F;
     }
-    const auto light = render::ground_irradiance(scene.scene(), {});
-    expect_black_body(scene, T_K, &light);
+    for (const int bounces : {1, 2, 3, 6}) {
+        const auto light = render::ground_irradiance(scene.scene(), {.bounces = bounces});
+        expect_black_body(scene, T_K, &light);
+    }
 }
 
 }  // namespace
