@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "analysis/unmix.h"
 #include "base/random.h"
 #include "bench/w0_scene.h"
 #include "render/flame_march.h"
@@ -35,6 +36,33 @@ void emit(benchmark::State& state) {
     state.SetLabel("ns per voxel and wavelength");
 }
 BENCHMARK(emit)->Args({224, 1})->Args({224, 4})->Args({36, 4});
+
+/// Stepwise selection among five spectra at 224 bands, pixels with two or three of them and noise.
+void unmix(benchmark::State& state) {
+    constexpr int kBands = 224, kMembers = 5, kPixels = 4096;
+    analysis::Endmembers library{{"a", "b", "c", "d", "e"}, kBands, {}};
+    for (int j = 0; j < kMembers; ++j)
+        for (int b = 0; b < kBands; ++b)
+            library.spectra.push_back(0.3 + std::exp(-std::pow((b - 45.0 * j - 22.0) / 30.0, 2.0)));
+    std::vector<float> pixels(static_cast<std::size_t>(kBands) * kPixels);
+    for (int b = 0; b < kBands; ++b) {
+        for (int p = 0; p < kPixels; ++p) {
+            double sum = 0.002 * standard_normal({1, static_cast<std::uint32_t>(b), 0}, static_cast<std::uint64_t>(p));
+            for (int j = 0; j < 2 + p % 2; ++j) sum += (p % 7 + j) / 20.0 * library.spectrum((p + j) % kMembers)[b];
+            pixels[static_cast<std::size_t>(b * kPixels + p)] = static_cast<float>(sum);
+        }
+    }
+    const analysis::Unmixer unmixer(library, {});
+    std::vector<float> fractions(static_cast<std::size_t>(kMembers) * kPixels), residual(kPixels), chosen(kPixels),
+        flag(kPixels);
+    for (auto _ : state) {
+        unmixer.unmix(pixels.data(), kPixels, kPixels, {fractions, residual, chosen, flag});
+        benchmark::DoNotOptimize(fractions.data());
+    }
+    state.counters["items"] = kPixels;
+    state.SetLabel("ns per pixel of 224 bands, stepwise, 5 endmembers");
+}
+BENCHMARK(unmix);
 
 /// The march alone, through all flames of W0.
 void march(benchmark::State& state) {

@@ -6,6 +6,7 @@
 #include <gdal_priv.h>
 
 #include "base/error.h"
+#include "gis/band_description.h"
 #include "gis/gdal_support.h"
 #include "gis/raster_output.h"
 #include "gis/tags.h"
@@ -21,21 +22,6 @@ std::optional<double> micrometres(const char* value, const char* unit) {
     if (end == value) return std::nullopt;
     const auto conversion = unit_conversion(unit == nullptr ? "um" : unit, "um");
     return conversion ? std::optional(conversion->scale * number) : std::nullopt;
-}
-
-OutputBand describe(GDALRasterBand& band) {
-    OutputBand info;
-    info.description = band.GetDescription();
-    info.unit = band.GetUnitType();
-    const char* unit = band.GetMetadataItem("wavelength_units");
-    info.wavelength_um = micrometres(band.GetMetadataItem("wavelength"), unit);
-    if (!info.wavelength_um)
-        info.wavelength_um = micrometres(band.GetMetadataItem("CENTRAL_WAVELENGTH_UM", "IMAGERY"), "um");
-    info.fwhm_um = micrometres(band.GetMetadataItem("fwhm"), unit);
-    if (!info.fwhm_um) info.fwhm_um = micrometres(band.GetMetadataItem("FWHM_UM", "IMAGERY"), "um");
-    for (const auto& [key, value] : default_metadata(band))
-        if (!is_derived_band_key(key)) info.metadata.emplace(key, value);
-    return info;
 }
 
 void read_pixels(GDALRasterBand& band, double* out, int cols, int rows, const std::string& subject,
@@ -58,6 +44,21 @@ void read_pixels(GDALRasterBand& band, double* out, int cols, int rows, const st
 
 }  // namespace
 
+OutputBand describe_band(GDALRasterBand& band) {
+    OutputBand info;
+    info.description = band.GetDescription();
+    info.unit = band.GetUnitType();
+    const char* unit = band.GetMetadataItem("wavelength_units");
+    info.wavelength_um = micrometres(band.GetMetadataItem("wavelength"), unit);
+    if (!info.wavelength_um)
+        info.wavelength_um = micrometres(band.GetMetadataItem("CENTRAL_WAVELENGTH_UM", "IMAGERY"), "um");
+    info.fwhm_um = micrometres(band.GetMetadataItem("fwhm"), unit);
+    if (!info.fwhm_um) info.fwhm_um = micrometres(band.GetMetadataItem("FWHM_UM", "IMAGERY"), "um");
+    for (const auto& [key, value] : default_metadata(band))
+        if (!is_derived_band_key(key)) info.metadata.emplace(key, value);
+    return info;
+}
+
 ImageFile read_image(const std::filesystem::path& path, int most_bands) {
     const DatasetPtr dataset = open_raster(path);
     const GdalErrors errors;
@@ -70,7 +71,7 @@ ImageFile read_image(const std::filesystem::path& path, int most_bands) {
     image.pixels.resize(band_size * static_cast<std::size_t>(count));
     for (int b = 1; b <= count; ++b) {
         GDALRasterBand& band = *dataset->GetRasterBand(b);
-        image.bands.push_back(describe(band));
+        image.bands.push_back(describe_band(band));
         double* out = image.pixels.data() + band_size * static_cast<std::size_t>(b - 1);
         read_pixels(band, out, image.cols, image.rows, path.string(), errors);
     }

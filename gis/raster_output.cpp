@@ -1,6 +1,7 @@
 #include "gis/raster_output.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -84,7 +85,18 @@ std::uint8_t class_code(double value, const std::string& subject) {
     return static_cast<std::uint8_t>(value);
 }
 
+/// CRS, transform, control points and geolocation arrays of another raster.
+void copy_spatial_reference(GDALDataset& dataset, const std::filesystem::path& like) {
+    const DatasetPtr source = open_raster(like);
+    std::array<double, 6> transform{};
+    if (source->GetGeoTransform(transform.data()) == CE_None) dataset.SetGeoTransform(transform.data());
+    if (const auto* crs = source->GetSpatialRef()) dataset.SetSpatialRef(crs);
+    if (source->GetGCPCount() > 0) dataset.SetGCPs(source->GetGCPCount(), source->GetGCPs(), source->GetGCPSpatialRef());
+    if (char** arrays = source->GetMetadata("GEOLOCATION")) dataset.SetMetadata(arrays, "GEOLOCATION");
+}
+
 void set_spatial_reference(GDALDataset& dataset, const OutputRaster& raster) {
+    if (raster.like) return copy_spatial_reference(dataset, *raster.like);
     OGRSpatialReference crs;
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     if (raster.grid) {
@@ -257,7 +269,8 @@ void write_cog(const std::filesystem::path& path, const OutputRaster& raster, st
     initialise_gdal();
     const std::string subject = path.string();
     require_size(raster, pixels.size(), subject);
-    if (!raster.grid) throw runtime_error(subject, "cannot be written: a Cloud-Optimized GeoTIFF needs a map grid");
+    if (!raster.grid && !raster.like)
+        throw runtime_error(subject, "cannot be written: a Cloud-Optimized GeoTIFF needs a map grid");
     const ThreadOption no_side_files("GDAL_PAM_ENABLED", "NO");
     AtomicFile file(path);
     const GdalErrors errors;

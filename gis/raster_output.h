@@ -37,9 +37,12 @@ struct OutputRaster {
     std::optional<std::filesystem::path>
         geolocation;                                 ///< sensor geometry: file with longitude in band 1, latitude in band 2
     std::vector<GroundControlPoint> control_points;  ///< sensor geometry: fall-back for programs without geolocation arrays
-    std::map<std::string, std::string> metadata;     ///< default domain; synthetic=true is always added
-    std::string acquisition_time;                    ///< ISO 8601 UTC; also TIFFTAG_DATETIME. Empty = none
-    bool classes = false;                            ///< Byte, class names from `class_names`
+    std::optional<std::filesystem::path> like;  ///< instead of these three: a raster of the same size whose CRS, transform,
+                                                ///< control points and geolocation arrays are taken over
+    std::map<std::string, std::string> metadata;  ///< default domain
+    bool synthetic = true;                        ///< adds synthetic=true; false only for what is made of a real image
+    std::string acquisition_time;                 ///< ISO 8601 UTC; also TIFFTAG_DATETIME. Empty = none
+    bool classes = false;                         ///< Byte, class names from `class_names`
     std::vector<std::string> class_names;
     Compression compression = Compression::Deflate;
     int threads = 0;  ///< that compress; 0 = all cores. The file is the same for any number
@@ -51,7 +54,8 @@ void write_geotiff(const std::filesystem::path& path, const OutputRaster& raster
 /// Double precision, for geolocation.
 void write_geotiff(const std::filesystem::path& path, const OutputRaster& raster, std::span<const double> pixels);
 
-/// Cloud-Optimized GeoTIFF (512 tiles, overviews by average, nearest for classes, statistics). `raster.grid` is required.
+/// Cloud-Optimized GeoTIFF (512 tiles, overviews by average, nearest for classes, statistics). `raster.grid` is required, or `like`
+/// with a raster on a map.
 void write_cog(const std::filesystem::path& path, const OutputRaster& raster, std::span<const float> pixels);
 
 /// A raster of our own (or any) read whole, for the products phase and resume.

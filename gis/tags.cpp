@@ -164,7 +164,7 @@ std::vector<Tag> output_tags(const OutputRaster& raster, const std::vector<BandS
                              const std::string& subject) {
     TagList tags;
     for (const auto& [key, value] : raster.metadata) tags.add(0, "", key, value);
-    tags.add(0, "", "synthetic", "true");
+    if (raster.synthetic) tags.add(0, "", "synthetic", "true");
     if (!raster.acquisition_time.empty()) add_time(tags, raster.acquisition_time, subject);
     if (raster.geolocation) add_geolocation(tags, *raster.geolocation);
     tags.add(0, "ENVI", "band_names", envi_list(raster.bands, [](const OutputBand& b) { return b.description; }));

@@ -10,7 +10,7 @@ build_packages=(
     libgdal-dev gdal-bin libproj-dev proj-data libgeographiclib-dev # rasters, map projections, geodesics
     libembree-dev libtbb-dev                                        # ray tracer, threads
     libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev # quick-looks; libopencv-dev would pull in everything
-    libnlopt-cxx-dev libnlopt-dev libeigen3-dev                     # minimisers and linear algebra of fits
+    libnlopt-cxx-dev libnlopt-dev libeigen3-dev libboost-math-dev   # minimisers, linear algebra, distributions
     libyaml-cpp-dev nlohmann-json3-dev libssl-dev                   # scenarios, reports, checksums
     libcli11-dev libspdlog-dev libfmt-dev
     libgtest-dev # looked for whenever CMake configures with tests on

@@ -15,6 +15,7 @@
 #include "cli/fit_scar_command.h"
 #include "cli/progress.h"
 #include "cli/sensors_command.h"
+#include "cli/unmix_command.h"
 #include "pipeline/run.h"
 
 namespace {
@@ -36,6 +37,7 @@ struct Arguments {
     std::vector<std::string> acquisitions, calc_name;
     std::string sensor;
     cli::FitScarOptions fit_scar;
+    cli::UnmixOptions unmix;
     int threads = 0;
     bool force = false, quiet = false, json = false, print_schema = false;
     int verbose = 0;
@@ -115,6 +117,10 @@ int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line)
         auto options = a.fit_scar;
         options.quiet = a.quiet;
         cli::fit_scar_command(options);
+    } else if (app.got_subcommand("unmix")) {
+        auto options = a.unmix;
+        options.quiet = a.quiet;
+        cli::unmix_command(options, interrupted);
     } else if (app.got_subcommand("calc"))
         cli::run_calc(a.calc_name);
     return kDone;
@@ -136,6 +142,29 @@ void add_fit_scar(CLI::App& app, cli::FitScarOptions& o) {
         ->capture_default_str();
     sub->add_option("-o,--output", o.output, "prefix of .png, .json and .yaml (default: out/<name of the table>)");
     sub->footer("Example: pyroscene fit-scar record.csv --algorithm nelder-mead -o out/record");
+}
+
+void add_unmix(CLI::App& app, cli::UnmixOptions& o) {
+    auto* sub = app.add_subcommand("unmix", "fractions of known spectra in each pixel of any raster");
+    sub->add_option("IMAGE", o.image, "raster with a band per wavelength")->required();
+    sub->add_option("--endmembers", o.endmembers, "table: wavelength_um, wavelength_nm or band, then a column per spectrum");
+    sub->add_option("--truth", o.truth, "truth.tif of the image: its pure pixels give endmembers, its fractions the score");
+    sub->add_option("--pure", o.pure, "fraction from which on a pixel of the truth counts as pure")
+        ->check(CLI::Range(0.01, 1.0))
+        ->capture_default_str();
+    sub->add_option("--method", o.method, "stepwise selection by F-tests, or least squares with all endmembers")
+        ->check(CLI::IsMember(cli::unmix_methods()))
+        ->capture_default_str();
+    sub->add_option("--solver", o.solver, "least squares on the endmembers that stepwise selection chose")
+        ->check(CLI::IsMember(cli::unmix_solvers()))
+        ->capture_default_str();
+    sub->add_option("--alpha", o.alpha, "probability that an endmember which is not there is chosen")
+        ->check(CLI::Range(1e-9, 0.5))
+        ->capture_default_str();
+    sub->add_option("--noise", o.noise, "table: wavelength_um or band, noise (standard deviation); weights the bands");
+    sub->add_option("--threads", o.threads, "number of threads (default: all cores)")->check(CLI::Range(1, 1024));
+    sub->add_option("-o,--output", o.output, "GeoTIFF (default: <image>_fractions.tif beside the image)");
+    sub->footer("Example: pyroscene unmix radiance.tif --endmembers spectra.csv --method stepwise -o fractions.tif");
 }
 
 /// The words after `calc`. Its options are those of the formula, so they are not the parser's business (but --help is).
@@ -172,6 +201,7 @@ int main(int argc, char** argv) {
     check->add_flag("--print-schema", a.print_schema, "print the JSON Schema of scenario files");
     check->footer("Example: pyroscene check scenarios/lolo_peak/scenario.yaml");
     add_fit_scar(app, a.fit_scar);
+    add_unmix(app, a.unmix);
     auto* sensor = app.add_subcommand("sensors", "list the sensors, or show one in full");
     sensor->add_option("ID", a.sensor, "sensor id, or the path of a sensor file");
     sensor->add_flag("--json", a.json, "machine-readable output");

@@ -1,0 +1,81 @@
+#include "gis/image_stream.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include "base/error.h"
+#include "gis/band_description.h"
+#include "gis/gdal_support.h"
+#include "gis/tags.h"
+
+namespace pyroscene::gis {
+namespace {
+
+constexpr GIntBig kMostCache = 64 << 20;  ///< of decoded blocks; GDAL's own default is a twentieth of the machine's memory
+
+}  // namespace
+
+struct ImageStream::Impl {
+    struct Conversion {
+        double scale = 1.0, offset = 0.0, nodata = 0.0;
+        bool has_nodata = false;
+    };
+    std::filesystem::path path;
+    DatasetPtr dataset;
+    ImageInfo info;
+    std::vector<Conversion> conversion;
+};
+
+ImageStream::ImageStream(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
+    Impl& s = *impl_;
+    s.path = path;
+    s.dataset = open_raster(path);
+    if (GDALGetCacheMax64() > kMostCache) GDALSetCacheMax64(kMostCache);
+    s.info.cols = s.dataset->GetRasterXSize();
+    s.info.rows = s.dataset->GetRasterYSize();
+    s.info.metadata = default_metadata(*s.dataset);
+    std::array<double, 6> transform{};
+    s.info.on_map = s.dataset->GetSpatialRef() != nullptr && s.dataset->GetGeoTransform(transform.data()) == CE_None;
+    for (int b = 1; b <= s.dataset->GetRasterCount(); ++b) {
+        GDALRasterBand& band = *s.dataset->GetRasterBand(b);
+        s.info.bands.push_back(describe_band(band));
+        Impl::Conversion c{band.GetScale(), band.GetOffset(), 0.0, false};
+        int has = 0;
+        c.nodata = band.GetNoDataValue(&has);
+        c.has_nodata = has != 0 && !std::isnan(c.nodata);
+        s.conversion.push_back(c);
+    }
+}
+
+ImageStream::~ImageStream() = default;
+ImageStream::ImageStream(ImageStream&&) noexcept = default;
+const ImageInfo& ImageStream::info() const noexcept { return impl_->info; }
+const std::filesystem::path& ImageStream::path() const noexcept { return impl_->path; }
+
+void ImageStream::read(int first, int count, std::span<float> out) {
+    Impl& s = *impl_;
+    const auto line = static_cast<std::size_t>(s.info.cols), plane = line * static_cast<std::size_t>(count);
+    if (out.size() != plane * s.info.bands.size())
+        throw runtime_error(s.path.string(),
+                            fmt::format("{} values asked for, expected {}", out.size(), plane * s.info.bands.size()));
+    const GdalErrors errors;
+    const auto bytes = [](std::size_t values) { return static_cast<GSpacing>(values * sizeof(float)); };
+    if (s.dataset->RasterIO(GF_Read, 0, first, s.info.cols, count, out.data(), s.info.cols, count, GDT_Float32,
+                            static_cast<int>(s.info.bands.size()), nullptr, bytes(1), bytes(line), bytes(plane),
+                            nullptr) != CE_None)
+        throw input_error(s.path.string(), "cannot be read: " + errors.message());
+    for (std::size_t b = 0; b < s.conversion.size(); ++b) {
+        const Impl::Conversion& c = s.conversion[b];
+        const std::span<float> band = out.subspan(b * plane, plane);
+        const auto nodata = static_cast<float>(c.nodata);
+        if (c.has_nodata)
+            for (float& v : band) v = v == nodata ? std::numeric_limits<float>::quiet_NaN() : v;
+        if (c.scale != 1.0 || c.offset != 0.0)
+            for (float& v : band) v = static_cast<float>(c.scale * static_cast<double>(v) + c.offset);
+    }
+}
+
+}  // namespace pyroscene::gis
