@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "cli/calc.h"
 #include "cli/fit_scar_command.h"
+#include "cli/frp_command.h"
 #include "cli/progress.h"
 #include "cli/sensors_command.h"
 #include "cli/unmix_command.h"
@@ -38,6 +39,7 @@ struct Arguments {
     std::string sensor;
     cli::FitScarOptions fit_scar;
     cli::UnmixOptions unmix;
+    cli::FrpOptions frp;
     int threads = 0;
     bool force = false, quiet = false, json = false, print_schema = false;
     int verbose = 0;
@@ -121,6 +123,10 @@ int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line)
         auto options = a.unmix;
         options.quiet = a.quiet;
         cli::unmix_command(options, interrupted);
+    } else if (app.got_subcommand("frp")) {
+        auto options = a.frp;
+        options.quiet = a.quiet;
+        cli::frp_command(options, interrupted);
     } else if (app.got_subcommand("calc"))
         cli::run_calc(a.calc_name);
     return kDone;
@@ -167,6 +173,36 @@ void add_unmix(CLI::App& app, cli::UnmixOptions& o) {
     sub->footer("Example: pyroscene unmix radiance.tif --endmembers spectra.csv --method stepwise -o fractions.tif");
 }
 
+void add_frp(CLI::App& app, cli::FrpOptions& o) {
+    auto* sub = app.add_subcommand("frp", "fire radiative power of any calibrated raster with wavelength metadata");
+    sub->add_option("IMAGE", o.image, "radiances, W m-2 sr-1 um-1, on a map or with geolocation arrays")->required();
+    sub->add_option("--method", o.method, "MIR radiance, or two bands (Dozier)")
+        ->check(CLI::IsMember({"mir", "bispectral"}))
+        ->capture_default_str();
+    sub->add_option(
+           "--coefficient", o.coefficient,
+           "a of L = a T^4: fit (to the band's response), bird, modis, seviri, goes, viirs_m13, viirs_i4, or a number")
+        ->capture_default_str();
+    sub->add_option("--sensor", o.sensor,
+                    "whose spectral responses the bands have (default: as the image says, else boxcars)");
+    sub->add_option("--mir-band", o.mir_band, "from 1 (default: nearest 3.96 um)")->check(CLI::PositiveNumber);
+    sub->add_option("--tir-band", o.tir_band, "from 1 (default: nearest 11 um)")->check(CLI::PositiveNumber);
+    sub->add_option("--mir-transmittance", o.mir_transmittance, "of the air")->check(CLI::Range(1e-3, 1.0));
+    sub->add_option("--tir-transmittance", o.tir_transmittance, "of the air")->check(CLI::Range(1e-3, 1.0));
+    sub->add_option("--mir-path", o.mir_path, "path radiance, W m-2 sr-1 um-1")->check(CLI::NonNegativeNumber);
+    sub->add_option("--tir-path", o.tir_path, "path radiance, W m-2 sr-1 um-1")->check(CLI::NonNegativeNumber);
+    sub->add_option("--mir-noise", o.mir_noise, "standard deviation of the radiance, for the errors of the two-band method")
+        ->check(CLI::NonNegativeNumber);
+    sub->add_option("--tir-noise", o.tir_noise, "as --mir-noise")->check(CLI::NonNegativeNumber);
+    sub->add_option("--least-temperature", o.least_temperature_K,
+                    "MIR brightness temperature [K] below which nothing is a fire")
+        ->check(CLI::Range(200.0, 1000.0))
+        ->capture_default_str();
+    sub->add_flag("--no-background", o.no_background, "do not take the radiance of the surroundings off (thesis eq 6.6)");
+    sub->add_option("-o,--output", o.output, "GeoTIFF (default: <image>_frp.tif); the tables go beside it");
+    sub->footer("Example: pyroscene frp out/lolo_peak/wasp_thesis_1h/radiance.tif --coefficient modis -o frp.tif");
+}
+
 /// The words after `calc`. Its options are those of the formula, so they are not the parser's business (but --help is).
 std::vector<std::string> calc_words(int argc, char** argv) {
     int i = 1;
@@ -202,6 +238,7 @@ int main(int argc, char** argv) {
     check->footer("Example: pyroscene check scenarios/lolo_peak/scenario.yaml");
     add_fit_scar(app, a.fit_scar);
     add_unmix(app, a.unmix);
+    add_frp(app, a.frp);
     auto* sensor = app.add_subcommand("sensors", "list the sensors, or show one in full");
     sensor->add_option("ID", a.sensor, "sensor id, or the path of a sensor file");
     sensor->add_flag("--json", a.json, "machine-readable output");
