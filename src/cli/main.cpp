@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "base/error.h"
+#include "cli/atmosphere_commands.h"
 #include "cli/calc.h"
 #include "cli/fit_scar_command.h"
 #include "cli/frp_command.h"
@@ -249,6 +250,7 @@ int main(int argc, char** argv) {
                  "Example: pyroscene calc planck --wavelength_um 4 --temperature_K 1100");
 
     std::string command_line;
+    cli::add_atmosphere_commands(app, a.quiet, command_line);
     for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);

@@ -9,9 +9,9 @@
 namespace pyroscene::radiometry {
 namespace {
 
-void check_axis(const char* name, const std::vector<double>& axis, double minimum, double maximum) {
-    if (axis.size() < 2)
-        throw input_error(name, fmt::format("atmosphere table: {} values, expected at least 2", axis.size()));
+void check_axis(const char* name, const std::vector<double>& axis, double minimum, double maximum, std::size_t fewest = 1) {
+    if (axis.size() < fewest)
+        throw input_error(name, fmt::format("atmosphere table: {} values, expected at least {}", axis.size(), fewest));
     for (std::size_t i = 0; i < axis.size(); ++i) {
         if (!(axis[i] >= minimum && axis[i] <= maximum))
             throw input_error(name, fmt::format("atmosphere table: value {}, expected {} to {}", axis[i], minimum, maximum));
@@ -49,7 +49,7 @@ void check(const AtmosphereTable& t) {
     check_axis("view_zenith", t.view_zenith_deg, 0.0, 89.0);
     check_axis("solar_zenith", t.solar_zenith_deg, 0.0, 89.0);
     check_axis("relative_azimuth", t.relative_azimuth_deg, 0.0, 180.0);
-    check_axis("wavelength", t.wavelength_um, 0.1, 1000.0);
+    check_axis("wavelength", t.wavelength_um, 0.1, 1000.0, 2);
     const auto& azimuth = t.relative_azimuth_deg;
     if (azimuth.size() != 3 || azimuth[0] != 0.0 || azimuth[1] != 90.0 || azimuth[2] != 180.0)
         throw input_error("relative_azimuth", "atmosphere table: expected the three values 0, 90, 180 deg");
