@@ -93,12 +93,18 @@ TEST(ImportAtmosphere, ScenarioThroughAnImportedTableLooksLikeTheShippedOne) {
     save(scratch / "night.tp7", tape7_text(night) + tape7_text(mirror));
     ASSERT_EQ(pyroscene_cli("import-atmosphere --no-sun " + folder + "/night.tp7 -o " + folder + "/air.nc").exit_code, 0);
     const auto minimal = source_folder() / "scenarios/minimal";
+    std::ifstream camera(minimal / "camera.yaml");
+    std::string ideal;  // without noise, saturation and counts, whose steps are larger than the differences
+    for (std::string line; std::getline(camera, line);)
+        if (!line.starts_with("digitisation") && !line.starts_with("  noise") && !line.starts_with("  saturation"))
+            ideal += line + "\n";
+    save(scratch / "camera.yaml", ideal);
     const auto scenario = [&](const std::string& name, const std::string& atmosphere) {
         save(scratch / (name + ".yaml"),
              "pyroscene: 1\ninputs:\n  terrain:   {file: " + (minimal / "dem.tif").string() +
                  "}\n  heat_flux: {file: " + (minimal / "heat_flux.tif").string() +
                  "}\nstart: 2021-08-12T20:00:00Z\nrender: {sun: false}\natmosphere: " + atmosphere +
-                 "\nproducts: [radiance]\nacquisitions:\n  - {id: a, sensor: " + (minimal / "camera.yaml").string() +
+                 "\nproducts: [radiance]\nacquisitions:\n  - {id: a, sensor: " + std::string("camera.yaml") +
                  ", time_s: 120, platform: {over: centre, altitude_agl_m: 300}}\n");
         const auto run = pyroscene_cli("run " + folder + "/" + name + ".yaml -o " + folder + "/" + name);
         EXPECT_EQ(run.exit_code, 0) << run.output;
