@@ -259,7 +259,10 @@ AtmosphereRun to_run(const ModtranColumns& c, const RunHints& hints, const Spect
     sort_by_wavelength(run);
     for (double& tau : run.transmittance) tau = std::clamp(tau, 0.0, 1.0);
     run.includes_thermal = !run.path_thermal.empty();
-    run.includes_sun = run.geometry.sun_zenith_deg.has_value() || !run.path_solar.empty();
+    const auto lit = [](const std::vector<double>& v) {
+        return std::any_of(v.begin(), v.end(), [](double x) { return x > 0.0; });
+    };
+    run.includes_sun = lit(run.path_solar) || lit(run.direct_reflected);
     return run;
 }
 
