@@ -8,8 +8,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "fire/flame_height.h"
-#include "fire/flame_tilt.h"
+#include "fire/flames.h"
 #include "fire/scar.h"
 
 namespace pyroscene::fire {
@@ -137,42 +136,6 @@ void set_temperatures(FireState& state, const FireParameters& p) {
                 continue;
         }
         state.surface_temperature_K.values[i] = static_cast<float>(T_K);
-    }
-}
-
-/// Tilt and azimuth of a front cell; upright where the wind is unknown.
-void set_tilt(FireState& state, std::size_t i, double heat_flux_W_m2, const FrameInputs& frame, const FireParameters& p) {
-    const double east_m_s = frame.wind_east_m_s.values[i], north_m_s = frame.wind_north_m_s.values[i];
-    if (!std::isfinite(east_m_s) || !std::isfinite(north_m_s)) return;
-    const double tilt_rad =
-        flame_tilt_buoyant_velocity_rad({.wind_m_s = std::hypot(east_m_s, north_m_s),
-                                         .fireline_intensity_W_m = heat_flux_W_m2 * state.cell_class.grid.cell_m,
-                                         .air_density_kg_m3 = p.air_density_kg_m3,
-                                         .air_heat_capacity_J_kg_K = p.air_heat_capacity_J_kg_K,
-                                         .air_temperature_K = p.air_temperature_K});
-    state.flame_tilt_rad.values[i] = static_cast<float>(std::min(tilt_rad, p.maximum_tilt_rad));
-    const auto azimuth_rad = static_cast<float>(downwind_azimuth_rad(east_m_s, north_m_s));
-    // Rounding to float may lift a value just below the full turn onto it.
-    state.flame_azimuth_rad.values[i] = static_cast<double>(azimuth_rad) < 2.0 * kPi ? azimuth_rad : 0.0F;
-}
-
-/// Fraction, height and tilt of every front cell, in row-major order so that the running statistics are reproducible.
-void set_flames(FireState& state, const FrameInputs& frame, const FireParameters& p) {
-    const RunningStatistics earlier = state.height_statistics;
-    for (std::size_t i = 0; i < state.cell_class.values.size(); ++i) {
-        if (state.cell_class.values[i] != static_cast<std::uint8_t>(CellClass::Front)) continue;
-        const double heat_flux_W_m2 = frame.heat_flux_W_m2.values[i];
-        const double fraction =
-            p.physics == Physics::Thesis ? 1.0 : std::min(1.0, heat_flux_W_m2 / p.flaming_heat_flux_W_m2);
-        state.front_fraction.values[i] = static_cast<float>(fraction);
-
-        const double height_m = flame_height_heat_flux_m(heat_flux_W_m2, p.height_alpha, p.volumetric_heat_release_W_m3);
-        const LimitedHeight limited =
-            p.one_sigma_rule ? limit_height(height_m, earlier, p.physics) : LimitedHeight{height_m, 0.0};
-        state.flame_height_m.values[i] = static_cast<float>(limited.flame_m);
-        state.ember_height_m.values[i] = static_cast<float>(limited.ember_m);
-        state.height_statistics.add(height_m);
-        set_tilt(state, i, heat_flux_W_m2, frame, p);
     }
 }
 

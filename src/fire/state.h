@@ -6,6 +6,7 @@
 
 #include "base/raster.h"
 #include "fire/embers.h"
+#include "fire/flame_relations.h"
 
 namespace pyroscene::fire {
 
@@ -40,6 +41,7 @@ struct FireParameters {
     EmberParameters embers;
     double jitter_m = 0.0;  ///< half width of the uniform shift of flame columns (thesis 4.6.4)
     std::uint64_t seed = 1;
+    FlameRelations flames;  ///< which relations for height, tilt, intensity and depth
 };
 
 /// Running count, mean and sum of squared deviations (Welford) of front-cell flame heights [m] of all earlier frames.
@@ -52,12 +54,31 @@ struct RunningStatistics {
     [[nodiscard]] double standard_deviation_m() const noexcept;
 };
 
+/// What is known of the front beside the rasters of a frame, on the same grid: values that hold when the front passes a cell.
+/// Not finite = unknown there.
+struct FrontInputs {
+    std::optional<Raster<float>> spread_rate_m_s;          ///< as given, or from arrival times (gradients.h)
+    std::optional<Raster<float>> fuel_load_kg_m2;          ///< before the fire
+    std::optional<Raster<float>> fireline_intensity_W_m;   ///< as given
+    std::optional<Raster<float>> flame_length_m;           ///< as given; along the leaning axis
+    std::optional<Raster<float>> residence_time_s;         ///< of flames at one place
+    std::optional<Raster<float>> slope_east, slope_north;  ///< of the ground, rise over run; both or none
+};
+
 /// Rasters of one moment, all on one map grid.
 struct FrameInputs {
     double time_s = 0.0;                          ///< since ignition
     Raster<float> heat_flux_W_m2;                 ///< surface fire sensible heat flux, cell mean; not finite = no data
     Raster<float> wind_east_m_s, wind_north_m_s;  ///< along the grid's axes; not finite = calm
     std::optional<Raster<float>> arrival_time_s;  ///< seconds since ignition, NaN = never reached
+    const FrontInputs* front = nullptr;           ///< not owned; null = nothing but the flux is known
+};
+
+/// Front cells of one frame whose flames needed a way out; for the run report.
+struct FlameCounts {
+    std::int64_t without_height = 0;          ///< the method gave none: Heskestad's is negative, a raster has no value
+    std::int64_t intensity_by_heat_flux = 0;  ///< load or spread rate unknown
+    std::int64_t depth_by_heat_flux = 0;      ///< spread rate or residence time unknown, or the front has passed
 };
 
 /// What the fire has done up to one frame: a pure function of the previous state and this frame's inputs. Its size does not
@@ -82,6 +103,7 @@ struct FireState {
     RunningStatistics height_statistics;     ///< of all frames up to and including this one
     std::vector<Ember> embers;    ///< detached flame still hot, oldest frame first; empty when embers do not drift
     double heat_release_W = 0.0;  ///< sum of positive heat flux x cell area over the whole map
+    FlameCounts flame_counts;     ///< of this frame alone; not kept in files
 };
 
 /// Zero of a scar cell's cooling curve [s]. Default physics: the arrival of the fire, because the part that still flamed later
