@@ -18,6 +18,23 @@ std::string text(const RasterSource& s) {
     return fmt::format("b{}t{};", fmt::join(s.bands, ","), fmt::join(s.times_s, ","));
 }
 
+/// Relations of the flames and the rasters that only they read.
+std::string flames_text(const Scenario& s) {
+    const auto& f = s.fire.flames;
+    std::string out = fmt::format("{}|{}|{}|{}|{}|{}|", f.height.method, f.height.constant_m, f.height.air_fuel_ratio,
+                                  f.height.plume_coefficient_m_kW.value_or(-1.0),
+                                  f.height.burning_area_fraction.value_or(-1.0), f.height.stand_height_m);
+    out += fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{};", f.tilt.method, f.tilt.slope, f.tilt.fuel_vapour_density_kg_m3,
+                       static_cast<int>(f.intensity), static_cast<int>(f.depth), f.residence_time_s.value_or(-1.0),
+                       f.heat_of_combustion_J_kg, f.consumed_fraction, f.maximum_spread_rate_m_s);
+    const auto& in = s.inputs;
+    for (const auto* source : {&in.fuel_load, &in.fireline_intensity, &in.flame_length, &in.spread_rate})
+        out += *source ? text(**source) : "-;";
+    const bool by_fuel_model = f.depth == fire::DepthRule::ResidenceTime && !f.residence_time_s;
+    if (by_fuel_model && in.cover) out += text(in.cover->raster) + in.cover->table;
+    return out;
+}
+
 std::string fire_text(const Scenario& s) {
     const auto& f = s.fire;
     std::string out =
@@ -28,7 +45,7 @@ std::string fire_text(const Scenario& s) {
                     f.air_heat_capacity_J_kg_K, f.air_temperature_K, f.maximum_tilt_rad, f.jitter_m, f.seed);
     const auto& e = f.embers;
     out += fmt::format("|{}|{}|{}|{}|{};", e.drift, e.cooling_time_s, e.lifetime_s, e.wind_height_m, e.wind_exponent);
-    out += text(s.inputs.terrain) + text(s.inputs.heat_flux);
+    out += flames_text(s) + text(s.inputs.terrain) + text(s.inputs.heat_flux);
     if (s.inputs.arrival) out += text(*s.inputs.arrival);
     if (s.inputs.wind) {
         out += fmt::format("{}|{};", s.inputs.wind->speed_m_s, s.inputs.wind->from_deg);

@@ -87,9 +87,28 @@ void warn_of_sparse_frames(const Session& s) {
                         widest, s.scenario.fire.scar.time_constant1_s));
 }
 
+/// What the flame relations could not do as asked, front cells of all frames made in this run.
+void count_flames(RunReport& report, const fire::FlameCounts& counts) {
+    const std::pair<const char*, std::int64_t> named[] = {
+        {"front_cells_without_flame_height", counts.without_height},
+        {"front_cells_with_intensity_by_heat_flux", counts.intensity_by_heat_flux},
+        {"front_cells_with_depth_by_heat_flux", counts.depth_by_heat_flux},
+    };
+    for (const auto& [name, count] : named)
+        if (count > 0) report.count(name, count);
+}
+
+void warn_of_flat_flames(const Session& s) {
+    if (s.scenario.physics == fire::Physics::Thesis && s.scenario.fire.flames.tilt.method == "thesis")
+        s.report.warn(
+            "fire.tilt.method: thesis under physics: thesis follows eq 4.31 as printed, which lays flames flat in calm "
+            "air; physics: default measures its angle from the ground");
+}
+
 void prepare_phase(Session& s) {
     const PhaseTimer timer(s.report, "prepare");
     warn_of_sparse_frames(s);
+    warn_of_flat_flames(s);
     std::optional<fire::FireState> previous;
     const std::size_t count = s.inputs.frames.size();
     // The states that are still current need not be made again; work starts from the last one before the first gap.
@@ -105,6 +124,7 @@ void prepare_phase(Session& s) {
         s.progress("prepare", static_cast<double>(i) / static_cast<double>(count));
         const auto frame = load_frame(s.scenario, s.inputs, i);
         auto state = fire::advance(previous ? &*previous : nullptr, frame, s.scenario.fire);
+        count_flames(s.report, state.flame_counts);
         write_state(path_of(i), state, print_of(i), s.utc(frame.time_s));
         previous = std::move(state);
         s.report.count("states_made", 1);

@@ -10,6 +10,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "pipeline/front_inputs.h"
 #include "radiometry/surfaces.h"
 
 namespace pyroscene::pipeline {
@@ -152,6 +153,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     if (const auto& arrival = scenario.inputs.arrival)
         in.arrival_time_s = gis::read_band(
             {arrival->files.front(), first_band(*arrival), gis::Resampling::Nearest, "arrival time", "s"}, in.grid);
+    in.front = load_front_inputs(scenario, in.terrain_m, in.arrival_time_s);
     in.origin_m = {0.5 * (in.grid.west_m + in.grid.east_m()), 0.5 * (in.grid.south_m() + in.grid.north_m), 0.0};
     in.centre = gis::MapProjection(in.grid.crs_wkt).to_geodetic(in.origin_m.x, in.origin_m.y, in.mean_height_m);
     return in;
@@ -164,6 +166,7 @@ fire::FrameInputs load_frame(const Scenario& scenario, const SceneInputs& inputs
     out.heat_flux_W_m2 =
         gis::read_band({source.file, source.band, gis::Resampling::Conserve, "heat flux", "W m-2"}, inputs.grid);
     out.arrival_time_s = inputs.arrival_time_s;
+    out.front = &inputs.front;
     const auto& wind = scenario.inputs.wind;
     if (wind && wind->raster) {
         const auto pair = wind_pair(*wind->raster, inputs.frames.size(), frame, source.time_s);
@@ -197,6 +200,8 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     std::vector<const RasterSource*> sources{&in.terrain, &in.heat_flux};
     if (in.fuel_load) sources.push_back(&*in.fuel_load);
     if (in.arrival) sources.push_back(&*in.arrival);
+    for (const auto* source : {&in.fireline_intensity, &in.flame_length, &in.spread_rate})
+        if (*source) sources.push_back(&**source);
     if (in.wind && in.wind->raster) sources.push_back(&*in.wind->raster);
     if (in.cover) sources.push_back(&in.cover->raster);
     std::set<std::filesystem::path> unique;

@@ -29,6 +29,7 @@ struct SceneInputs {
     Raster<std::uint8_t> cover;            ///< index into the surface library of unburnt ground
     std::vector<std::string> cover_names;  ///< what the indices mean (surface spectrum names)
     std::optional<Raster<float>> arrival_time_s;
+    fire::FrontInputs front;          ///< what the scenario's flame relations read
     std::vector<FrameSource> frames;  ///< ascending in time
     Vec3 origin_m;                    ///< map x, y of the scene frame's origin (centre of the grid), z = 0
     gis::Geodetic centre;             ///< of the map, at mean terrain height
@@ -41,7 +42,7 @@ SceneInputs load_scene_inputs(const scenario::Scenario& scenario);
 /// The frames of the heat-flux input, ascending in time. Throws an input error: no time_s, times not ascending, too few bands.
 std::vector<FrameSource> heat_flux_frames(const scenario::RasterSource& source);
 
-/// Reads the rasters of one frame onto the map grid.
+/// Reads the rasters of one frame onto the map grid. The frame refers to `inputs`, which must outlive it.
 fire::FrameInputs load_frame(const scenario::Scenario& scenario, const SceneInputs& inputs, std::size_t frame);
 
 /// Index of the last frame at or before a time. Throws an input error naming the acquisition when there is none.

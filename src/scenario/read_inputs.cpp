@@ -164,6 +164,9 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     heat_flux.finish();
     inputs.fuel_load = read_optional(node.child("fuel_load"), folder, kScalarSeries);
     inputs.arrival = read_optional(node.child("arrival"), folder, kStatic);
+    inputs.fireline_intensity = read_optional(node.child("fireline_intensity"), folder, kStatic);
+    inputs.flame_length = read_optional(node.child("flame_length"), folder, kStatic);
+    inputs.spread_rate = read_optional(node.child("spread_rate"), folder, kStatic);
     if (const auto wind = node.child("wind"); wind.present()) inputs.wind = read_wind(wind, folder);
     if (const auto cover = node.child("cover"); cover.present()) inputs.cover = read_cover(cover, folder);
     node.finish();

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/constants.h"
 #include "base/csv.h"
 #include "base/files.h"
 #include "scenario/readers.h"
@@ -20,26 +19,13 @@ void check_method(const config::Node& node, const char* key, const char* name) {
     [[maybe_unused]] const std::string found = node.choice(key, name, {name});
 }
 
-void read_flame_height(const config::Node& node, fire::FireParameters& p) {
-    check_method(node, "method", "heat_flux");
-    p.height_alpha = node.number("alpha", p.height_alpha, Range{0.0, 100.0, true});
-    p.volumetric_heat_release_W_m3 =
-        node.number("volumetric_heat_release_W_m3", p.volumetric_heat_release_W_m3, Range::between(1e4, 1e8));
-    node.finish();
-}
-
-void read_tilt(const config::Node& node, fire::FireParameters& p) {
-    check_method(node, "method", "buoyant_velocity");
-    p.maximum_tilt_rad =
-        node.number("maximum_deg", p.maximum_tilt_rad / kDegree_rad, Range::between(0.0, 89.0)) * kDegree_rad;
-    node.finish();
-}
-
 void read_air(const config::Node& node, fire::FireParameters& p) {
     p.air_density_kg_m3 = node.number("density_kg_m3", p.air_density_kg_m3, Range::between(0.1, 2.0));
     p.air_heat_capacity_J_kg_K =
         node.number("heat_capacity_J_kg_K", p.air_heat_capacity_J_kg_K, Range::between(500.0, 2000.0));
     p.air_temperature_K = node.number("temperature_K", p.air_temperature_K, Range::between(200.0, 400.0));
+    auto& vapour_kg_m3 = p.flames.tilt.fuel_vapour_density_kg_m3;
+    vapour_kg_m3 = node.number("fuel_vapour_density_kg_m3", vapour_kg_m3, Range::between(0.05, 5.0));
     node.finish();
 }
 
@@ -85,8 +71,7 @@ fire::FireParameters read_fire(const config::Node& node, const config::Node& sca
     p.one_sigma_rule = node.boolean("one_sigma_rule", p.one_sigma_rule);
     p.jitter_m = node.number("jitter_m", p.jitter_m, Range::between(0.0, 1000.0));
     p.embers = read_embers(node.child("embers"));
-    read_flame_height(node.child("flame_height"), p);
-    read_tilt(node.child("tilt"), p);
+    read_flame_relations(node, p);
     read_air(node.child("air"), p);
     node.finish();
     p.scar = read_scar(scar);

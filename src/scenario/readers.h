@@ -22,6 +22,10 @@ inline constexpr config::Range kTemperature_K = config::Range::between(200.0, 35
 /// \param folder  of the scenario file; relative paths start there
 Inputs read_inputs(const config::Node& node, const std::filesystem::path& folder);
 fire::FireParameters read_fire(const config::Node& fire, const config::Node& scar);
+/// Flame height, tilt, fireline intensity and front depth: the part of `fire` that read_flames.cpp reads.
+void read_flame_relations(const config::Node& fire, fire::FireParameters& parameters);
+/// Reports inputs that the chosen flame relations need and do not have, and the reverse.
+void check_flame_inputs(const config::Node& root, const Scenario& scenario);
 FlameSettings read_flame(const config::Node& node);
 SurfaceSettings read_surface(const config::Node& node);
 AtmosphereSource read_atmosphere(const config::Node& node, const std::filesystem::path& folder);

@@ -98,6 +98,7 @@ Scenario load(const fs::path& path) {
     s.fire = read_fire(root.child("fire"), root.child("scar"));
     s.fire.physics = s.physics;
     s.fire.seed = s.seed;
+    check_flame_inputs(root, s);
     s.flame = read_flame(root.child("flame"));
     s.flame.parameters.profile.air_K = s.fire.air_temperature_K;
     s.surface = read_surface(root.child("surface"));

@@ -54,6 +54,9 @@ constexpr const char* kSchema = R"json({
           }
         },
         "arrival": {"$ref": "#/$defs/static", "description": "time of arrival of the fire, s since start"},
+        "fireline_intensity": {"$ref": "#/$defs/static", "description": "as the front passes, W m-1"},
+        "flame_length": {"$ref": "#/$defs/static", "description": "along the leaning axis, m; for flame_height.method: raster"},
+        "spread_rate": {"$ref": "#/$defs/static", "description": "of the front, m s-1; default: from arrival"},
         "cover": {
           "description": "class of each cell and the table that gives each class a surface spectrum",
           "type": "object",
@@ -96,17 +99,45 @@ constexpr const char* kSchema = R"json({
           "type": "object",
           "additionalProperties": false,
           "properties": {
-            "method": {"enum": ["heat_flux"], "default": "heat_flux"},
+            "method": {"default": "heat_flux", "enum": ["heat_flux", "heskestad", "byram", "weise_biging", "thomas", "nelson_adkins", "nelson_lab", "nelson_field",
+              "butler", "clark", "fernandes", "finney_grumstrup", "constant", "raster"]},
             "alpha": {"type": "number", "exclusiveMinimum": 0, "maximum": 100, "default": 1},
-            "volumetric_heat_release_W_m3": {"type": "number", "minimum": 1e4, "maximum": 1e8, "default": 2e6}
+            "volumetric_heat_release_W_m3": {"type": "number", "minimum": 1e4, "maximum": 1e8, "default": 2e6},
+            "constant_m": {"type": "number", "exclusiveMinimum": 0, "maximum": 500, "default": 2},
+            "air_fuel_ratio": {"type": "number", "minimum": 0.5, "maximum": 50, "default": 5.5},
+            "plume_coefficient_m_kW": {"type": "number", "minimum": 0.01, "maximum": 1,
+              "description": "Heskestad's A, m kW^-2/5; default: from air, heat of combustion and air_fuel_ratio"},
+            "burning_area_fraction": {"type": "number", "exclusiveMinimum": 0, "maximum": 1,
+              "description": "of a cell, for Heskestad's diameter; default: the part that flames"},
+            "stand_height_m": {"type": "number", "minimum": 0, "maximum": 150, "default": 0}
           }
         },
         "tilt": {
           "type": "object",
           "additionalProperties": false,
           "properties": {
-            "method": {"enum": ["buoyant_velocity"], "default": "buoyant_velocity"},
-            "maximum_deg": {"type": "number", "minimum": 0, "maximum": 89, "default": 85}
+            "method": {"default": "buoyant_velocity", "enum": ["buoyant_velocity", "aga", "thomas", "albini", "putnam", "rule", "butler", "thesis"]},
+            "maximum_deg": {"type": "number", "minimum": 0, "maximum": 89, "default": 85},
+            "slope": {"type": "boolean", "default": false}
+          }
+        },
+        "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 5e7, "default": 16515000},
+        "maximum_spread_rate_m_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 100, "default": 10},
+        "fireline_intensity": {
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "method": {"enum": ["auto", "fuel", "heat_flux"], "default": "auto"},
+            "consumed_fraction": {"type": "number", "exclusiveMinimum": 0, "maximum": 1, "default": 1}
+          }
+        },
+        "front_depth": {
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "method": {"enum": ["heat_flux", "residence_time"], "default": "heat_flux"},
+            "residence_time_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e5,
+              "description": "default: of the fuel model where cover has table fbfm13 or fbfm40"}
           }
         },
         "air": {
@@ -115,7 +146,8 @@ constexpr const char* kSchema = R"json({
           "properties": {
             "density_kg_m3": {"type": "number", "minimum": 0.1, "maximum": 2, "default": 1.18},
             "heat_capacity_J_kg_K": {"type": "number", "minimum": 500, "maximum": 2000, "default": 1005},
-            "temperature_K": {"type": "number", "minimum": 200, "maximum": 400, "default": 300}
+            "temperature_K": {"type": "number", "minimum": 200, "maximum": 400, "default": 300},
+            "fuel_vapour_density_kg_m3": {"type": "number", "minimum": 0.05, "maximum": 5, "default": 0.36}
           }
         }
       }

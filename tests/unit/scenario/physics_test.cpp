@@ -92,9 +92,13 @@ TEST(Physics, NumbersAreChecked) {
               Lines{"8: fire.front_threshold_W_m2: must be > 0 and <= 100000000, found 0"});
     EXPECT_EQ(said("fire: {tilt: {maximum_deg: 90}}"),
               Lines{"8: fire.tilt.maximum_deg: must be between 0 and 89, found 90"});
-    EXPECT_EQ(said("fire: {tilt: {method: aga}}"), Lines{"8: fire.tilt.method: 'aga' is none of buoyant_velocity"});
+    EXPECT_EQ(said("fire: {tilt: {method: sails}}"),
+              Lines{"8: fire.tilt.method: 'sails' is none of buoyant_velocity, aga, thomas, albini, putnam, rule, butler, "
+                    "thesis"});
     EXPECT_EQ(said("fire: {flame_height: {method: heatflux}}"),
-              Lines{"8: fire.flame_height.method: 'heatflux' is none of heat_flux; did you mean 'heat_flux'?"});
+              Lines{"8: fire.flame_height.method: 'heatflux' is none of heat_flux, heskestad, byram, weise_biging, thomas, "
+                    "nelson_adkins, nelson_lab, nelson_field, butler, clark, fernandes, finney_grumstrup, constant, raster; "
+                    "did you mean 'heat_flux'?"});
     EXPECT_EQ(said("flame: {voxel_m: [0.01, 5, 300]}"),
               (Lines{"8: flame.voxel_m[0]: must be between 0.05 and 200, found 0.01",
                      "8: flame.voxel_m[2]: must be between 0.05 and 200, found 300"}));

@@ -124,10 +124,18 @@ TEST_F(Schema, WordsAreThoseOfLoad) {
         for (const auto& word : key.words) EXPECT_EQ(said_of(key.path, word), "") << word;
         ++checked;
     }
-    EXPECT_GE(checked, 8);  // physics, methods and models, temperature profile, two surfaces, atmosphere
+    EXPECT_GE(checked, 10);  // physics, methods and models, temperature profile, two surfaces, atmosphere
 }
 
 namespace {
+
+std::string describe_flames(const fire::FlameRelations& f) {
+    return fmt::format(" | {} {} {} {} {} {} | {} {} {} | {} {} {} {} {}", f.height.method, f.height.constant_m,
+                       f.height.air_fuel_ratio, f.height.plume_coefficient_m_kW.has_value(),
+                       f.height.burning_area_fraction.has_value(), f.height.stand_height_m, f.tilt.method, f.tilt.slope,
+                       f.tilt.fuel_vapour_density_kg_m3, static_cast<int>(f.intensity), static_cast<int>(f.depth),
+                       f.heat_of_combustion_J_kg, f.consumed_fraction, f.maximum_spread_rate_m_s);
+}
 
 /// All numbers and words of a scenario that have a default.
 std::string describe(const Scenario& s) {
@@ -148,11 +156,13 @@ std::string describe(const Scenario& s) {
         s.acquisitions[0].platform.heading_deg, s.acquisitions[0].platform.pitch_deg, s.acquisitions[0].platform.roll_deg);
 }
 
+std::string describe_all(const Scenario& s) { return describe(s) + describe_flames(s.fire.flames); }
+
 }  // namespace
 
 // A default that is written out changes nothing.
 TEST_F(Schema, DefaultsAreThoseOfLoad) {
-    const std::string without = describe(folder.load(shortest()));
+    const std::string without = describe_all(folder.load(shortest()));
     int checked = 0;
     for (const auto& key : values()) {
         const auto scalar = key.facts.find("default");
@@ -165,7 +175,7 @@ TEST_F(Schema, DefaultsAreThoseOfLoad) {
             key.path.starts_with(platform)
                 ? with_platform("{altitude_m: 3000, " + key.path.substr(platform.size()) + ": " + value + "}")
                 : shortest(as_yaml(key.path, value) + "\n");
-        EXPECT_EQ(describe(folder.load(text)), without);
+        EXPECT_EQ(describe_all(folder.load(text)), without);
         ++checked;
     }
     EXPECT_GE(checked, 40);
