@@ -7,8 +7,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/calc.h"
-#include "fire/flame_height.h"
-#include "fire/flame_tilt.h"
+#include "cli/flame_calculations.h"
 #include "fire/scar.h"
 #include "gis/netcdf_input.h"
 #include "radiometry/atmosphere.h"
@@ -98,25 +97,6 @@ std::vector<double> flame_emissivity(const Arguments& a) {
     return {-std::expm1(-path.depth()), path.emitted_radiance()};
 }
 
-std::vector<double> flame_height(const Arguments& a) {
-    if (a.text("method") != "heat_flux")
-        throw input_error("--method", fmt::format("'{}' is unknown; there is heat_flux", a.text("method")));
-    return {fire::flame_height_heat_flux_m(a.number("heat_flux_W_m2"), a.number("alpha"),
-                                           a.number("volumetric_heat_release_W_m3"))};
-}
-
-std::vector<double> flame_tilt(const Arguments& a) {
-    if (a.text("method") != "buoyant_velocity")
-        throw input_error("--method", fmt::format("'{}' is unknown; there is buoyant_velocity", a.text("method")));
-    fire::TiltInputs in;
-    in.wind_m_s = a.number("wind_m_s");
-    in.fireline_intensity_W_m = 1e3 * a.number("fireline_intensity_kW_m");
-    in.air_density_kg_m3 = a.number("air_density_kg_m3");
-    in.air_heat_capacity_J_kg_K = a.number("air_heat_capacity_J_kg_K");
-    in.air_temperature_K = a.number("air_temperature_K");
-    return {fire::flame_tilt_buoyant_velocity_rad(in) / kDegree_rad};
-}
-
 std::vector<double> scar_temperature(const Arguments& a) {
     const fire::ScarCooling curve{a.number("amplitude1_K"), a.number("time_constant1_s"), a.number("amplitude2_K"),
                                   a.number("time_constant2_s"), a.number("floor_K")};
@@ -189,25 +169,8 @@ const std::vector<Calculation>& calculations() {
           {"pressure_atm", "1"}},
          {"emissivity", "radiance_W_m2_sr_um"},
          flame_emissivity},
-        {"flame-height",
-         "flame height from the surface heat flux (thesis eq 4.22)",
-         {{"method", "heat_flux"},
-          {"heat_flux_W_m2", {}},
-          {"alpha", "1"},
-          {"volumetric_heat_release_W_m3", "2e6"},
-          {"cell_area_m2", {}, true}},
-         {"height_m"},
-         flame_height},
-        {"flame-tilt",
-         "flame tilt from the vertical by the buoyant velocity (Nelson)",
-         {{"method", "buoyant_velocity"},
-          {"wind_m_s", {}},
-          {"fireline_intensity_kW_m", {}},
-          {"air_density_kg_m3", "1.18"},
-          {"air_heat_capacity_J_kg_K", "1005"},
-          {"air_temperature_K", "300"}},
-         {"tilt_deg"},
-         flame_tilt},
+        flame_height_calculation(),
+        flame_tilt_calculation(),
         {"scar-temperature",
          "burn scar cooling (thesis eq 4.17, coefficients of eq 4.18)",
          {{"time_s", {}},

@@ -1,0 +1,198 @@
+#include "cli/flame_calculations.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "fire/flame_height.h"
+#include "fire/flame_tilt.h"
+
+namespace pyroscene::cli {
+namespace {
+
+template <class Table>
+std::vector<std::string> names_of(const Table& table) {
+    std::vector<std::string> names;
+    for (const auto& row : table) names.emplace_back(row.name);
+    return names;
+}
+
+template <class Table>
+const auto& row_of(const Table& table, const std::string& name) {
+    for (const auto& row : table)
+        if (row.name == name) return row;
+    throw input_error("--method", fmt::format("'{}' is unknown; there are {}", name, fmt::join(names_of(table), ", ")));
+}
+
+fire::Physics physics(const Arguments& a) {
+    const auto word = a.text("physics");
+    if (word != "default" && word != "thesis")
+        throw input_error("--physics", fmt::format("'{}' is neither default nor thesis", word));
+    return word == "thesis" ? fire::Physics::Thesis : fire::Physics::Default;
+}
+
+double number_or(const Arguments& a, const std::string& name, double otherwise) {
+    return a.has(name) ? a.number(name) : otherwise;
+}
+
+double above_zero(const Arguments& a, const std::string& name) {
+    const double value = a.number(name);
+    if (!(value > 0.0)) throw input_error("--" + name, fmt::format("is {}, must be above 0", value));
+    return value;
+}
+
+/// Given, or heat flux x area of the cell.
+double heat_release_W(const Arguments& a) {
+    if (a.has("heat_release_W") || !a.has("cell_area_m2")) return a.number("heat_release_W");
+    return a.number("heat_flux_W_m2") * above_zero(a, "cell_area_m2");
+}
+
+/// Given, or of the circle with the area of the cell.
+double diameter_m(const Arguments& a) {
+    if (a.has("diameter_m") || !a.has("cell_area_m2")) return a.number("diameter_m");
+    return std::sqrt(4.0 / kPi * above_zero(a, "cell_area_m2"));
+}
+
+/// Given, or fireline intensity / heat flux.
+double front_depth_m(const Arguments& a) {
+    if (a.has("front_depth_m") || !a.has("heat_flux_W_m2")) return a.number("front_depth_m");
+    return 1e3 * a.number("fireline_intensity_kW_m") / above_zero(a, "heat_flux_W_m2");
+}
+
+double plume_coefficient(const Arguments& a) {
+    if (a.has("plume_coefficient_m_kW")) return a.number("plume_coefficient_m_kW");
+    return fire::plume_coefficient_m_kW(
+        above_zero(a, "air_temperature_K"), above_zero(a, "air_density_kg_m3"), above_zero(a, "air_heat_capacity_J_kg_K"),
+        above_zero(a, "heat_of_combustion_J_kg") / above_zero(a, "air_fuel_ratio"), physics(a));
+}
+
+std::vector<double> flame_height(const Arguments& a) {
+    const auto& method = row_of(fire::kFlameHeightMethods, a.text("method"));
+    fire::FlameHeightInputs in;
+    switch (method.driver) {
+        case fire::FlameDriver::HeatFlux:
+            in.heat_flux_W_m2 = a.number("heat_flux_W_m2");
+            in.alpha = a.number("alpha");
+            in.volumetric_heat_release_W_m3 = above_zero(a, "volumetric_heat_release_W_m3");
+            break;
+        case fire::FlameDriver::HeatRelease:
+            in.heat_release_W = heat_release_W(a);
+            in.diameter_m = diameter_m(a);
+            in.plume_coefficient_m_kW = plume_coefficient(a);
+            break;
+        case fire::FlameDriver::FirelineIntensity:
+            in.fireline_intensity_W_m = 1e3 * a.number("fireline_intensity_kW_m");
+            if (method.name == "finney_grumstrup") in.front_depth_m = front_depth_m(a);
+            break;
+        case fire::FlameDriver::Given:
+            in.heat_flux_W_m2 = number_or(a, "heat_flux_W_m2", 1.0);
+            in.constant_m = a.number("constant_m");
+            if (method.name == "raster") in.given_length_m = a.number("flame_length_m");
+            break;
+    }
+    const double size_m = method.size_m(in), tilt_rad = a.number("tilt_deg") * kDegree_rad;
+    if (!(tilt_rad >= 0.0 && tilt_rad < 0.5 * kPi))
+        throw input_error("--tilt_deg", fmt::format("is {}, must lie within 0 and 90", a.number("tilt_deg")));
+    const double height_m = fire::vertical_height_m(method.extent, size_m, tilt_rad, a.number("stand_height_m"));
+    const bool is_height = method.extent == fire::FlameExtent::Height;
+    return {height_m, is_height ? size_m / std::cos(tilt_rad) : size_m};
+}
+
+/// m'' D: given as its two factors, or fireline intensity / heat of combustion.
+double burning_rate_kg_m_s(const Arguments& a) {
+    if (a.has("burning_rate_kg_m2_s")) return a.number("burning_rate_kg_m2_s") * a.number("diameter_m");
+    return 1e3 * a.number("fireline_intensity_kW_m") / above_zero(a, "heat_of_combustion_J_kg");
+}
+
+std::vector<double> flame_tilt(const Arguments& a) {
+    const auto& method = row_of(fire::kFlameTiltMethods, a.text("method"));
+    fire::TiltInputs in;
+    in.wind_m_s = a.number("wind_m_s");
+    in.air_density_kg_m3 = above_zero(a, "air_density_kg_m3");
+    in.air_heat_capacity_J_kg_K = above_zero(a, "air_heat_capacity_J_kg_K");
+    in.air_temperature_K = above_zero(a, "air_temperature_K");
+    in.fuel_vapour_density_kg_m3 = above_zero(a, "fuel_vapour_density_kg_m3");
+    in.heat_of_combustion_J_kg = above_zero(a, "heat_of_combustion_J_kg");
+    in.physics = physics(a);
+    const double slope_deg = a.number("slope_deg");
+    if (!(std::abs(slope_deg) < 90.0))
+        throw input_error("--slope_deg", fmt::format("is {}, must lie within -90 and 90", slope_deg));
+    if (slope_deg != 0.0 && !method.has_slope)
+        throw input_error("--slope_deg", fmt::format("method '{}' knows no slope", method.name));
+    in.slope_rad = slope_deg * kDegree_rad;
+    switch (method.driver) {
+        case fire::TiltDriver::None:
+            break;
+        case fire::TiltDriver::FirelineIntensity:
+            in.fireline_intensity_W_m = 1e3 * a.number("fireline_intensity_kW_m");
+            break;
+        case fire::TiltDriver::BurningRate:
+            in.burning_rate_kg_m_s = burning_rate_kg_m_s(a);
+            break;
+        case fire::TiltDriver::FlameSize:
+            in.extent = a.has("flame_length_m") ? fire::FlameExtent::Length : fire::FlameExtent::Height;
+            in.flame_size_m = a.has("flame_length_m") ? a.number("flame_length_m") : a.number("flame_height_m");
+            break;
+        case fire::TiltDriver::HeatRelease:
+            in.heat_release_W = a.number("heat_release_W");
+            break;
+    }
+    return {method.tilt_rad(in) / kDegree_rad};
+}
+
+}  // namespace
+
+Calculation flame_height_calculation() {
+    return {"flame-height",
+            fmt::format("vertical height and length along the leaning axis of a flame; methods {}",
+                        fmt::join(names_of(fire::kFlameHeightMethods), ", ")),
+            {{"method", "heat_flux"},
+             {"heat_flux_W_m2", {}, true},
+             {"alpha", "1"},
+             {"volumetric_heat_release_W_m3", "2e6"},
+             {"cell_area_m2", {}, true},
+             {"heat_release_W", {}, true},
+             {"diameter_m", {}, true},
+             {"plume_coefficient_m_kW", {}, true},
+             {"heat_of_combustion_J_kg", "16515000"},
+             {"air_fuel_ratio", "5.5"},
+             {"air_density_kg_m3", "1.18"},
+             {"air_heat_capacity_J_kg_K", "1005"},
+             {"air_temperature_K", "300"},
+             {"fireline_intensity_kW_m", {}, true},
+             {"front_depth_m", {}, true},
+             {"constant_m", "2"},
+             {"flame_length_m", {}, true},
+             {"tilt_deg", "0"},
+             {"stand_height_m", "0"},
+             {"physics", "default"}},
+            {"height_m", "length_m"},
+            flame_height};
+}
+
+Calculation flame_tilt_calculation() {
+    return {"flame-tilt",
+            fmt::format("flame tilt from the vertical; methods {}", fmt::join(names_of(fire::kFlameTiltMethods), ", ")),
+            {{"method", "buoyant_velocity"},
+             {"wind_m_s", {}},
+             {"fireline_intensity_kW_m", {}, true},
+             {"flame_height_m", {}, true},
+             {"flame_length_m", {}, true},
+             {"heat_release_W", {}, true},
+             {"burning_rate_kg_m2_s", {}, true},
+             {"diameter_m", {}, true},
+             {"slope_deg", "0"},
+             {"air_density_kg_m3", "1.18"},
+             {"air_heat_capacity_J_kg_K", "1005"},
+             {"air_temperature_K", "300"},
+             {"fuel_vapour_density_kg_m3", "0.36"},
+             {"heat_of_combustion_J_kg", "16515000"},
+             {"physics", "default"}},
+            {"tilt_deg"},
+            flame_tilt};
+}
+
+}  // namespace pyroscene::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cli/calc.h"
+
+namespace pyroscene::cli {
+
+/// `calc flame-height`: every row of the flame-height table.
+Calculation flame_height_calculation();
+
+/// `calc flame-tilt`: every row of the tilt table.
+Calculation flame_tilt_calculation();
+
+}  // namespace pyroscene::cli
