@@ -37,8 +37,8 @@ struct Inputs {
     RasterSource terrain, heat_flux;
     std::optional<RasterSource> fuel_load, arrival;
     std::optional<RasterSource> fireline_intensity, flame_length, spread_rate;  ///< as the front passes; static
-    std::optional<WindSource> wind;    ///< absent = calm
-    std::optional<CoverSource> cover;  ///< absent = surface.unburned everywhere
+    std::optional<WindSource> wind;                                             ///< absent = calm
+    std::optional<CoverSource> cover;                                           ///< absent = surface.unburned everywhere
 };
 
 /// Days since 1970 arithmetic is done once, here: seconds since the Unix epoch, UTC.
