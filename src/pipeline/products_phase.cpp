@@ -173,8 +173,9 @@ void write_ortho(const ProductJob& job, const Rendered& r, const Product& produc
 /// Where each map cell appears in the image; cells that terrain hides from the camera appear nowhere.
 analysis::OrthoLookup visible_ground(const ProductJob& job, const Rendered& r, const MapGrid& grid, RunReport& report) {
     auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight));
-    // Heights between two pixels of smooth ground differ from the terrain by less than a pixel on any slope a camera sees.
-    const double tolerance_m = 1.5 * r.gsd_m + 1.0;
+    // Heights between two pixels differ from the terrain by less than a pixel on any slope a camera sees, and the facets of the
+    // mesh differ from a bilinear surface by a fraction of a terrain cell where it is rough.
+    const double tolerance_m = 1.5 * r.gsd_m + 0.2 * job.inputs.grid.cell_m + 1.0;
     const auto hidden = analysis::hide_unseen(lookup, analysis::heights_on(grid, job.inputs.terrain_m), tolerance_m);
     report.count("hidden_ortho_cells/" + job.acquisition.id + job.files.suffix, hidden);
     return lookup;
