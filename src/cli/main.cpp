@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "cli/atmosphere_commands.h"
 #include "cli/calc.h"
+#include "cli/compare_command.h"
 #include "cli/fit_scar_command.h"
 #include "cli/frp_command.h"
 #include "cli/progress.h"
@@ -41,6 +42,7 @@ struct Arguments {
     cli::FitScarOptions fit_scar;
     cli::UnmixOptions unmix;
     cli::FrpOptions frp;
+    cli::CompareOptions compare;
     int threads = 0;
     bool force = false, quiet = false, json = false, print_schema = false;
     int verbose = 0;
@@ -128,6 +130,11 @@ int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line)
         auto options = a.frp;
         options.quiet = a.quiet;
         cli::frp_command(options, interrupted);
+    } else if (app.got_subcommand("compare")) {
+        auto options = a.compare;
+        options.quiet = a.quiet;
+        options.has_threshold = app.get_subcommand("compare")->count("--threshold") > 0;
+        cli::compare_command(options);
     } else if (app.got_subcommand("calc"))
         cli::run_calc(a.calc_name);
     return kDone;
@@ -204,6 +211,20 @@ void add_frp(CLI::App& app, cli::FrpOptions& o) {
     sub->footer("Example: pyroscene frp out/lolo_peak/wasp_thesis_1h/radiance.tif --coefficient modis -o frp.tif");
 }
 
+void add_compare(CLI::App& app, cli::CompareOptions& o) {
+    auto* sub = app.add_subcommand("compare", "a synthetic against a real image: registration, differences, scores");
+    sub->add_option("SYNTHETIC", o.synthetic, "ortho product")->required();
+    sub->add_option("REAL", o.real, "georeferenced raster of the same quantity")->required();
+    sub->add_option("--threshold", o.threshold,
+                    "from which value on a pixel is fire (default: Otsu's of the synthetic image)");
+    sub->add_flag("--no-registration", o.no_registration, "trust the georeference of both");
+    sub->add_option("--largest-shift", o.largest_shift, "fraction of the shorter side; larger shifts are not believed")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    sub->add_option("-o,--output", o.output, "folder (default: out/<synthetic>_comparison)");
+    sub->footer("Example: pyroscene compare out/lolo_peak/wasp_1h/ortho_radiance.tif flight_line.tif -o out/comparison");
+}
+
 /// The words after `calc`. Its options are those of the formula, so they are not the parser's business (but --help is).
 std::vector<std::string> calc_words(int argc, char** argv) {
     int i = 1;
@@ -240,6 +261,7 @@ int main(int argc, char** argv) {
     add_fit_scar(app, a.fit_scar);
     add_unmix(app, a.unmix);
     add_frp(app, a.frp);
+    add_compare(app, a.compare);
     auto* sensor = app.add_subcommand("sensors", "list the sensors, or show one in full");
     sensor->add_option("ID", a.sensor, "sensor id, or the path of a sensor file");
     sensor->add_flag("--json", a.json, "machine-readable output");
