@@ -22,6 +22,7 @@ echo "| case | measured | compared with | ratio | limits | condition on the resu
 echo "|---|---|---|---|---|---|"
 "$build/bench/bench_frames" --pairs "$pairs"
 "$build/bench/bench_kernels"
+"$build/bench/bench_prepare"
 
 # The thesis case end to end: rasters in, georeferenced products out.
 cli="$build/src/cli/pyroscene"

@@ -194,8 +194,11 @@ void write_truth(const GroupJob& job, const RadianceImage& image, const std::vec
         pixels.insert(pixels.end(), plane.begin(), plane.end());
     };
     const auto fraction = [](const char* name) { return gis::OutputBand{name, "1", {}, {}, {}}; };
-    std::vector<float> smoke(n);  // no smoke in the scene: the fraction is 0 wherever something is seen
-    for (std::size_t i = 0; i < n; ++i) smoke[i] = image.flame_fraction[i] * 0.0F;
+    std::vector<float> smoke = image.smoke_fraction;
+    if (smoke.empty()) {  // no plume: the fraction is 0 wherever something is seen
+        smoke.resize(n);
+        for (std::size_t i = 0; i < n; ++i) smoke[i] = image.flame_fraction[i] * 0.0F;
+    }
     add(fraction("fraction_flame"), image.flame_fraction);
     add(fraction("fraction_front"), image.front_fraction);
     add(fraction("fraction_scar"), image.scar_fraction);
@@ -214,9 +217,8 @@ void write_truth(const GroupJob& job, const RadianceImage& image, const std::vec
         };
         add(radiance("radiance_noise_free"), plane(image.radiance_W_m2_sr_um));
         add({band.id + " saturated", "1", {}, {}, {{"band_id", band.id}}}, plane(saturated));
-        for (int t = 0; t < render::kTermCount; ++t)
-            add(radiance(std::string("term_") + render::kTermNames[static_cast<std::size_t>(t)]),
-                plane(image.terms[static_cast<std::size_t>(t)]));
+        for (std::size_t t = 0; t < image.terms.size(); ++t)
+            if (!image.terms[t].empty()) add(radiance(std::string("term_") + render::kTermNames[t]), plane(image.terms[t]));
     }
     gis::write_geotiff(job.files.truth(), out, std::span<const float>(pixels));
 }
@@ -230,6 +232,8 @@ void report_image(const GroupJob& job, const RadianceImage& image, const render:
                                 missed, rays));
     report.count("transport_wavelengths/" + job.acquisition.id, scene.optics->lambda_count);
     report.count("flame_bricks/" + job.acquisition.id, static_cast<std::int64_t>(scene.flame->bricks.size()));
+    if (render::has_plume(scene))
+        report.count("plume_bricks/" + job.acquisition.id, static_cast<std::int64_t>(scene.plume->bricks.size()));
 }
 
 render::GroundIrradiance ground_light(const GroupJob& job, const render::RenderScene& scene, const Monitor& monitor,
@@ -268,7 +272,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     const double sensor_agl_m = std::max(1.0, job.pose.position.h_m - in.mean_height_m);
     const auto spectral = make_spectral_scene(scenario, in, responses, sensor_agl_m, sun.centre(), report);
 
-    const double flame_top_m = job.fire.flame.z_range_m()[1];
+    const double flame_top_m = std::max(job.fire.flame.z_range_m()[1], job.fire.plume.z_range_m()[1]);
     const sensors::FrameChords chords(job.sensor, job.group, job.pose, map, in.origin_m, in.lowest_m - 10.0,
                                       std::max(in.highest_m, flame_top_m) + 10.0);
 
@@ -277,6 +281,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     scene.surface = &job.fire.surface;
     scene.cover = &in.cover;
     scene.flame = &job.fire.flame;
+    scene.plume = &job.fire.plume;
     scene.optics = &spectral.optics;
     scene.spectral = &spectral.grid;
     scene.atmosphere = &spectral.atmosphere;

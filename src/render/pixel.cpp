@@ -25,11 +25,13 @@ Pixel::Pixel(const PreparedScene& prepared)
       ground_(prepared.tables.stride),
       ground_of_ray_(prepared.tables.stride),
       flame_(static_cast<std::size_t>(prepared.tables.stride), 0.0F),
+      smoke_(static_cast<std::size_t>(prepared.tables.stride), 0.0F),
       tau_(static_cast<std::size_t>(prepared.tables.stride), 1.0F) {}
 
 void Pixel::begin() {
     truth_ = {};
     if (flame_used_) std::fill(flame_.begin(), flame_.end(), 0.0F);
+    if (flame_used_ && prepared_->plume) std::fill(smoke_.begin(), smoke_.end(), 0.0F);
     if (ground_used_) ground_.clear();
     flame_used_ = ground_used_ = false;
 }
@@ -43,6 +45,11 @@ void Pixel::add_ray(const SceneRay& ray, double weight) {
     truth_.coverage += weight;
     truth_.hit_m = truth_.hit_m + weight * hit->point_m;
 
+    if (p.plume && march_mixed(ray.start_m, hit->point_m)) {
+        add_ground_truth(ground, weight * mixed_truth(weight));
+        add_mixed(weight, ground, light_at(*hit));
+        return;
+    }
     march(ray.start_m, hit->point_m);
     const GroundLight light = light_at(*hit);
     if (pieces_.empty()) {
@@ -123,6 +130,12 @@ void Pixel::add_flame_spectrally(double weight, const GroundCell& ground, const 
         kernels_->emit(t.stride, t.absorption_per_m.data(), static_cast<float>(piece.fill_length_m), t.planck.row(found.row),
                        t.stride, found.count, found.weight.data(), static_cast<float>(weight), tau_.data(), flame_.data());
     }
+    add_ground_behind(weight, ground, light);
+}
+
+/// Ground seen through the transmittance of the current ray.
+void Pixel::add_ground_behind(double weight, const GroundCell& ground, const GroundLight& light) {
+    const SceneTables& t = prepared_->tables;
     ground_used_ = true;
     ground_of_ray_.clear();
     add_ground(t, ground, weight, light, mix_of_ray_);
@@ -130,6 +143,56 @@ void Pixel::add_flame_spectrally(double weight, const GroundCell& ground, const 
     for (int p = 0; p < GroundSpectra::kParts; ++p) {
         kernels_->add_product(t.stride, 1.0F, tau_.data(), ground_of_ray_.part(p), ground_.part(p));
     }
+}
+
+/// Flame and plume along the ray, in order; false when the ray meets no plume.
+bool Pixel::march_mixed(Vec3 start_m, Vec3 hit_m) {
+    list_segments(*prepared_->plume, start_m, hit_m, smoke_segments_);
+    if (smoke_segments_.empty()) return false;
+    list_segments(prepared_->flame, start_m, hit_m, flame_segments_);
+    mixed_.clear();
+    merge_segments(flame_segments_, smoke_segments_, length(hit_m - start_m),
+                   [&](const MixedPiece& piece) { mixed_.push_back(piece); });
+    return true;
+}
+
+/// What flame_truth() is for flame alone.
+double Pixel::mixed_truth(double weight) {
+    const SceneTables& t = prepared_->tables;
+    double tau = 1.0;
+    for (const MixedPiece& piece : mixed_) {
+        const double flame = t.truth_absorption_per_m * piece.flame_m,
+                     smoke = t.truth_smoke_absorption_per_m * piece.smoke_m;
+        if (!(flame + smoke > 0.0)) continue;
+        const double emitted = -tau * std::expm1(-(flame + smoke)), by_flame = emitted * flame / (flame + smoke);
+        tau -= emitted;
+        truth_.flame += weight * by_flame;
+        truth_.flame_T4 += weight * by_flame * fourth_power(piece.flame_K);
+        truth_.smoke += weight * (emitted - by_flame);
+    }
+    return tau;
+}
+
+void Pixel::add_mixed(double weight, const GroundCell& ground, const GroundLight& light) {
+    const SceneTables& t = prepared_->tables;
+    std::fill(tau_.begin(), tau_.end(), 1.0F);
+    flame_used_ = true;
+    const auto scale = static_cast<float>(weight);
+    for (const MixedPiece& piece : mixed_) {
+        const PlanckRows::Lookup hot = t.planck.at(piece.flame_K), warm = t.planck.at(piece.smoke_K);
+        const Emitter flame{t.absorption_per_m.data(), static_cast<float>(piece.flame_m), t.planck.row(hot.row), hot.count,
+                            hot.weight.data()};
+        const Emitter smoke{t.smoke_absorption_per_m.data(), static_cast<float>(piece.smoke_m), t.planck.row(warm.row),
+                            warm.count, warm.weight.data()};
+        if (piece.flame_m > 0.0 && piece.smoke_m > 0.0) {
+            kernels_->emit_two(t.stride, flame, smoke, t.stride, scale, tau_.data(), flame_.data(), smoke_.data());
+            continue;
+        }
+        const Emitter& only = piece.flame_m > 0.0 ? flame : smoke;
+        kernels_->emit(t.stride, only.k, only.depth, only.rows, t.stride, only.row_count, only.weight, scale, tau_.data(),
+                       piece.flame_m > 0.0 ? flame_.data() : smoke_.data());
+    }
+    add_ground_behind(weight, ground, light);
 }
 
 void Pixel::add_ground_truth(const GroundCell& ground, double weight) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "render/flame_march.h"
 #include "render/ground_mix.h"
+#include "render/mixed_march.h"
 #include "render/scene.h"
 #include "render/scene_tables.h"
 
@@ -13,18 +15,21 @@ namespace pyroscene::render {
 /// A scene and all that was prepared from it for one image; shared by all threads, constant.
 struct PreparedScene {
     PreparedScene(const RenderScene& s, const GroundIrradiance* light)
-        : scene(s), flame_light(light), tables(s), flame(*s.flame) {}
+        : scene(s), flame_light(light), tables(s), flame(*s.flame) {
+        if (has_plume(s)) plume.emplace(*s.plume);
+    }
     const RenderScene& scene;
     const GroundIrradiance* flame_light;  ///< may be null
     SceneTables tables;
     FlameColumns flame;
+    std::optional<FlameColumns> plume;  ///< smoke, if any
 };
 
 /// What the rays of one pixel met, as sums of ray weights; opacities and transmittances of flame are those at 4.0 um.
 struct PixelTruth {
     double coverage = 0.0;
     Vec3 hit_m;  ///< weighted sum
-    double flame = 0.0, front = 0.0, scar = 0.0, background = 0.0;
+    double flame = 0.0, smoke = 0.0, front = 0.0, scar = 0.0, background = 0.0;
     double flame_T4 = 0.0;   ///< sum of (tau_i - tau_{i+1}) T^4
     double ground_T4 = 0.0;  ///< sum of tau T^4
     double exitance_W_m2 = 0.0;
@@ -43,6 +48,8 @@ public:
 
     [[nodiscard]] const PixelTruth& truth() const noexcept { return truth_; }
     [[nodiscard]] const float* flame() const noexcept { return flame_.data(); }
+    /// Emission of the plume; zeros in scenes without one.
+    [[nodiscard]] const float* smoke() const noexcept { return smoke_.data(); }
     [[nodiscard]] const GroundSpectra& ground() const noexcept { return ground_; }
 
 private:
@@ -55,6 +62,10 @@ private:
     double flame_truth(double weight);
     double add_grey_flame(double weight);
     void add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light);
+    bool march_mixed(Vec3 start_m, Vec3 hit_m);
+    double mixed_truth(double weight);
+    void add_mixed(double weight, const GroundCell& ground, const GroundLight& light);
+    void add_ground_behind(double weight, const GroundCell& ground, const GroundLight& light);
     void add_ground_truth(const GroundCell& ground, double weight);
 
     const PreparedScene* prepared_;
@@ -65,7 +76,9 @@ private:
     int first_flame_row_ = 0, end_flame_row_ = 0;
     GroundMix mix_, mix_of_ray_;
     GroundSpectra ground_, ground_of_ray_;
-    std::vector<float> flame_, tau_;
+    std::vector<float> flame_, smoke_, tau_;
+    std::vector<RaySegment> flame_segments_, smoke_segments_;
+    std::vector<MixedPiece> mixed_;  ///< of the current ray, where it meets the plume
     bool flame_used_ = false, ground_used_ = false;
 };
 

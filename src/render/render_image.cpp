@@ -31,6 +31,12 @@ void check_request(const ImageRequest& request) {
     if (!request.rays) throw input_error("image", "no source of rays");
 }
 
+/// Terms of the scene: the last one belongs to plumes.
+int term_count(const RenderScene& scene) {
+    static_assert(static_cast<int>(Term::SmokeEmission) == kTermCount - 1);
+    return has_plume(scene) ? kTermCount : kTermCount - 1;
+}
+
 RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request) {
     RadianceImage image;
     image.samples = request.samples;
@@ -40,7 +46,7 @@ RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request)
     const std::size_t cube = pixels * static_cast<std::size_t>(image.bands);
     image.radiance_W_m2_sr_um.resize(cube);
     if (request.terms) {
-        for (auto& term : image.terms) term.resize(cube);
+        for (int t = 0; t < term_count(scene); ++t) image.terms[static_cast<std::size_t>(t)].resize(cube);
     }
     for (auto* plane : {&image.hit_x_m, &image.hit_y_m, &image.hit_z_m}) plane->resize(pixels);
     for (auto* plane :
@@ -48,6 +54,7 @@ RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request)
           &image.flame_temperature_K, &image.ground_temperature_K, &image.radiant_exitance_W_m2}) {
         plane->resize(pixels);
     }
+    if (has_plume(scene)) image.smoke_fraction.resize(pixels);
     return image;
 }
 
@@ -59,6 +66,7 @@ void write_truth(const PixelTruth& truth, std::size_t at, RadianceImage& image) 
     image.hit_y_m[at] = share(truth.hit_m.y);
     image.hit_z_m[at] = share(truth.hit_m.z);
     image.flame_fraction[at] = static_cast<float>(share(truth.flame));
+    if (!image.smoke_fraction.empty()) image.smoke_fraction[at] = static_cast<float>(share(truth.smoke));
     image.front_fraction[at] = static_cast<float>(share(truth.front));
     image.scar_fraction[at] = static_cast<float>(share(truth.scar));
     image.background_fraction[at] = static_cast<float>(share(truth.background));
@@ -76,7 +84,7 @@ public:
     TileRenderer(const PreparedScene& prepared, const ImageRequest& request)
         : request_(request),
           bands_(prepared.scene.spectral->band_count()),
-          quantities_(request.terms ? 1 + kTermCount : 1),
+          quantities_(request.terms ? 1 + term_count(prepared.scene) : 1),
           pixel_(prepared),
           output_(prepared, request.terms),
           rays_(static_cast<std::size_t>(kTileSamples) * static_cast<std::size_t>(request.rays_per_pixel)),

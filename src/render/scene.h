@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/buffer.h"
+#include "base/flame_gas.h"
 #include "base/raster.h"
 #include "base/report.h"
 #include "base/vec3.h"
@@ -33,18 +34,21 @@ enum class Term {
     FlameEmission,
     PathSolar,
     PathThermal,
-    Adjacency
+    Adjacency,
+    SmokeEmission  ///< only in scenes with a plume
 };
-inline constexpr int kTermCount = 9;
+inline constexpr int kTermCount = 10;
 inline constexpr std::array<const char*, kTermCount> kTermNames{
     "ground_emission", "reflected_sun", "reflected_sky", "reflected_thermal_sky", "reflected_flame", "flame_emission",
-    "path_solar",      "path_thermal",  "adjacency"};
+    "path_solar",      "path_thermal",  "adjacency",     "smoke_emission"};
 
 /// Spectral properties on the transport grid.
 struct SceneOptics {
     int lambda_count = 0;
     std::vector<double> lambda_um;
     std::vector<float> flame_absorption_per_m;  ///< [lambda] of flame that fills its voxel
+    std::vector<float> smoke_absorption_per_m;  ///< [lambda] of plume voxels of fill 1; empty without a plume
+    FlameGas gas;                               ///< what the flame is made of
     bool grey = false;                          ///< absorption equal at all wavelengths: one exp per step
     int material_count = 0;
     std::vector<float> reflectance;  ///< [material][lambda]; emissivity = 1 - reflectance
@@ -57,12 +61,15 @@ struct RenderScene {
     const fire::SurfaceField* surface = nullptr;
     const Raster<std::uint8_t>* cover = nullptr;  ///< material of unburnt ground per map cell
     const fire::FlameField* flame = nullptr;
+    const fire::FlameField* plume = nullptr;  ///< smoke on a lattice of its own; null or empty = none
     const SceneOptics* optics = nullptr;
     const radiometry::SpectralGrid* spectral = nullptr;
     const radiometry::ViewAtmosphere* atmosphere = nullptr;
     Vec3 scene_origin_m;  ///< map coordinates of the scene frame's origin (z = 0)
     Vec3 to_sun;          ///< unit vector, scene frame; z <= 0 = night
 };
+
+inline bool has_plume(const RenderScene& scene) noexcept { return scene.plume != nullptr && !scene.plume->empty(); }
 
 /// Settings of the light that flames and slopes throw on the ground.
 struct GroundLightSettings {
@@ -103,7 +110,7 @@ struct GroundIrradiance {
 
 /// Hemisphere quadrature at each terrain cell near flames, through the flame field, occluded by terrain, and reflections
 /// between slopes.
-/// Deterministic for any thread count. Method and accuracy: docs/physics-render.md.
+/// A plume takes no part in it. Deterministic for any thread count. Method and accuracy: docs/physics-render.md.
 GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSettings& settings,
                                    const Monitor& monitor = {});
 
@@ -129,10 +136,11 @@ struct ImageRequest {
 struct RadianceImage {
     int samples = 0, lines = 0, bands = 0;
     Buffer<float> radiance_W_m2_sr_um;              ///< [band][line][sample], noise-free
-    std::array<Buffer<float>, kTermCount> terms;    ///< each as radiance, empty when not asked for
+    std::array<Buffer<float>, kTermCount> terms;    ///< each as radiance, empty when not asked for (or no plume)
     std::vector<double> hit_x_m, hit_y_m, hit_z_m;  ///< PSF-weighted mean ground point, scene frame
     std::vector<float> coverage;                    ///< weight of sub-rays that met the scene, 0..1
-    std::vector<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum = 1
+    std::vector<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum with smoke = 1
+    std::vector<float> smoke_fraction;         ///< empty in scenes without a plume
     std::vector<float> flame_temperature_K;    ///< emission-weighted, NaN without flame
     std::vector<float> ground_temperature_K;   ///< (mean T^4)^(1/4) of the ground seen
     std::vector<float> radiant_exitance_W_m2;  ///< true FRP per ground area: flame + front + (scar - ambient)

@@ -37,6 +37,11 @@ std::pair<double, double> temperature_range_K(const RenderScene& scene) {
         lowest = std::min(lowest, low);
         highest = std::max(highest, high);
     }
+    if (has_plume(scene)) {
+        const auto [low, high] = scene.plume->temperature_range_K();
+        lowest = std::min(lowest, low);
+        highest = std::max(highest, high);
+    }
     return {lowest, highest};
 }
 
@@ -44,6 +49,10 @@ std::vector<double> exact_temperatures_K(const RenderScene& scene) {
     std::vector<double> exact{scene.surface->ambient_temperature_K, scene.surface->front_temperature_K};
     if (!scene.flame->empty()) {
         const auto [low, high] = scene.flame->temperature_range_K();
+        if (low == high) exact.push_back(low);
+    }
+    if (has_plume(scene)) {
+        const auto [low, high] = scene.plume->temperature_range_K();
         if (low == high) exact.push_back(low);
     }
     // The fields hold floats: a temperature is recognised after that rounding.
@@ -84,6 +93,7 @@ void check_scene(const RenderScene& scene) {
     check_length(static_cast<std::size_t>(scene.spectral->size()), lambdas, "the spectral grid");
     check_length(optics.lambda_um.size(), lambdas, "lambda_um of the optics");
     check_length(optics.flame_absorption_per_m.size(), lambdas, "flame_absorption_per_m");
+    if (has_plume(scene)) check_length(optics.smoke_absorption_per_m.size(), lambdas, "smoke_absorption_per_m");
     check_length(optics.reflectance.size(), lambdas * materials, "reflectance");
     check_length(static_cast<std::size_t>(scene.atmosphere->lambda_count()), lambdas, "the atmosphere");
     require(optics.burnt_material >= 0 && optics.burnt_material < optics.material_count, "scene",
@@ -120,6 +130,11 @@ SceneTables::SceneTables(const RenderScene& scene) {
     });
     truth_absorption_per_m = absorption_per_m[static_cast<std::size_t>(nearest - optics.lambda_um.begin())];
 
+    if (has_plume(scene)) {
+        smoke_absorption_per_m = optics.smoke_absorption_per_m;
+        truth_smoke_absorption_per_m = smoke_absorption_per_m[static_cast<std::size_t>(nearest - optics.lambda_um.begin())];
+        smoke_absorption_per_m.resize(static_cast<std::size_t>(stride), smoke_absorption_per_m.back());
+    }
     has_sun = scene.to_sun.z > 0.0 && any_positive(air.direct_normal_irradiance_W_m2_um);
     has_sky = has_sun || any_positive(air.diffuse_irradiance_W_m2_um);  // slopes reflect the sun as a part of the sky
     has_thermal_sky = any_positive(air.thermal_irradiance_W_m2_um);

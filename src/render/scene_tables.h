@@ -24,8 +24,10 @@ struct SceneTables {
     };
 
     int lambdas = 0, stride = 0, materials = 0, burnt_material = 0;
-    PlanckRows planck;                    ///< all temperatures of flame and ground
-    std::vector<float> absorption_per_m;  ///< of flame
+    PlanckRows planck;                          ///< all temperatures of flame and ground
+    std::vector<float> absorption_per_m;        ///< of flame
+    std::vector<float> smoke_absorption_per_m;  ///< of plume; empty without one
+    double truth_smoke_absorption_per_m = 0.0;
     bool grey = false;
     double grey_absorption_per_m = 0.0, least_absorption_per_m = 0.0;
     double truth_absorption_per_m = 0.0;  ///< at the node nearest 4.0 um

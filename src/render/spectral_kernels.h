@@ -7,6 +7,15 @@ namespace pyroscene::render {
 /// Both versions give the same numbers within rounding; one machine always uses one of them.
 struct PlaneTrace;
 
+/// One of the constituents of a piece of ray: absorption spectrum, fill x length, rows and weights of its Planck spectrum.
+struct Emitter {
+    const float* k;
+    float depth;
+    const float* rows;
+    int row_count;  ///< 1 or 4
+    const float* weight;
+};
+
 struct SpectralKernels {
     static constexpr int kLanes = 8;
 
@@ -17,6 +26,10 @@ struct SpectralKernels {
     /// tau is kept above 1e-20: denormal numbers cost ten times as much.
     void (*emit)(int n, const float* k, float depth, const float* rows, int row_stride, int row_count, const float* weight,
                  float scale, float* tau, float* flame);
+    /// One homogeneous piece that holds flame and smoke at once, a = k_f depth_f, b = k_s depth_s:
+    ///   flame += scale tau (1 - exp(-a-b)) a / (a + b) B_f,   smoke likewise with b and B_s,   tau *= exp(-a-b)
+    void (*emit_two)(int n, const Emitter& flame_piece, const Emitter& smoke_piece, int row_stride, float scale, float* tau,
+                     float* flame, float* smoke);
     /// out += sum_j weight[j] row_j
     void (*add_rows)(int n, const float* rows, int row_stride, int row_count, const float* weight, float* out);
     /// out += a x y
