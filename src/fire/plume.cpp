@@ -153,12 +153,11 @@ std::vector<PlumePoint> plume_axis(double heat_W, double radius_m, double wind_m
         const PlumePoint at = axis.back();
         const double u = wind_at(wind_m_s, at.height_m, p), R = radius_m + p.entrainment * at.height_m;
         const double dt_s = std::max(step_m, 0.25 * R) / std::hypot(u, at.rise_m_s);
-        // The radius grows within the step: momentum first, then height with the mean of the speeds before and after.
+        // dz = w dt and R = R0 + beta z make R^2 w dt = d(R^3) / (3 beta): exact in R for a wind that is constant in the step.
+        const double R_after = std::cbrt(R * R * R + 3.0 * p.entrainment * (momentum + 0.5 * F * dt_s) / u * dt_s);
         momentum += F * dt_s;
-        const double guess_m = at.height_m + at.rise_m_s * dt_s, R_after = radius_m + p.entrainment * guess_m;
-        const double rise_m_s = momentum / (u * R_after * R_after);
-        PlumePoint next{at.time_s + dt_s, at.downwind_m + u * dt_s, at.height_m + 0.5 * (at.rise_m_s + rise_m_s) * dt_s,
-                        rise_m_s};
+        PlumePoint next{at.time_s + dt_s, at.downwind_m + u * dt_s, (R_after - radius_m) / p.entrainment,
+                        momentum / (u * R_after * R_after)};
         if (next.height_m > p.top_m || next.time_s > p.duration_s) break;
         axis.push_back(next);
     }

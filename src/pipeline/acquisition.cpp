@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "gis/netcdf_input.h"
+#include "pipeline/plume_scene.h"
 #include "radiometry/atmosphere.h"
 #include "radiometry/soot.h"
 #include "radiometry/surfaces.h"
@@ -124,6 +125,8 @@ FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const
     const int refinement = fine ? std::clamp(static_cast<int>(std::lround(in.grid.cell_m / fine_m)), 1, 16) : 1;
     FireScene scene;
     scene.surface = fire::surface_at(state, time_s, scenario.fire, refinement);
+    scene.gas = scenario.flame.gas;
+    scene.plume = make_plume(scenario, in, time_s);
     if (scenario.flame.off) return scene;
     const auto columns = fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters,
                                             in.origin_m, time_s);
@@ -131,8 +134,9 @@ FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const
     return scene;
 }
 
-SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& in, const std::vector<Spectrum>& responses,
-                                  double sensor_agl_m, const radiometry::SunPosition& sun, RunReport& report) {
+SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& in, const FireScene& fire,
+                                  const std::vector<Spectrum>& responses, double sensor_agl_m,
+                                  const radiometry::SunPosition& sun, RunReport& report) {
     SpectralScene out;
     out.grid = radiometry::make_spectral_grid(responses);
     const int n = out.grid.size();
@@ -141,11 +145,13 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
     optics.lambda_um = out.grid.lambda_um;
 
     const auto soot = radiometry::load_soot_optics(data_folder() / "optical" / "soot_optics.csv");
+    optics.gas = fire.gas;
+    if (!fire.plume.empty()) optics.smoke_absorption_per_m = plume_absorption_per_m(scenario, out.grid);
     optics.grey = scenario.flame.grey_absorption_per_m.has_value();
     for (const double lambda_um : optics.lambda_um)
         optics.flame_absorption_per_m.push_back(static_cast<float>(
             optics.grey ? *scenario.flame.grey_absorption_per_m
-                        : radiometry::soot_absorption_per_m(soot, lambda_um, scenario.flame.gas.soot_volume_fraction)));
+                        : radiometry::soot_absorption_per_m(soot, lambda_um, fire.gas.soot_volume_fraction)));
 
     const auto library = radiometry::load_surfaces(data_folder() / "optical" / "surface_reflectance.csv");
     auto names = in.cover_names;

@@ -31,6 +31,8 @@ std::vector<std::string> wanted_groups(const scenario::Acquisition& acquisition,
 struct FireScene {
     fire::SurfaceField surface;
     fire::FlameField flame;
+    fire::FlameField plume;  ///< smoke; empty without one
+    FlameGas gas;            ///< of the flame
 };
 FireScene make_fire_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const fire::FireState& state,
                           double time_s);
@@ -42,7 +44,7 @@ struct SpectralScene {
     radiometry::ViewAtmosphere atmosphere;
 };
 /// \param sensor_agl_m sensor height above the mean terrain  \param sun position at the scene centre
-SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const SceneInputs& inputs,
+SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const FireScene& fire,
                                   const std::vector<Spectrum>& responses, double sensor_agl_m,
                                   const radiometry::SunPosition& sun, RunReport& report);
 

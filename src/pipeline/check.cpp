@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "pipeline/acquisition.h"
+#include "pipeline/plume_scene.h"
 #include "pipeline/run.h"
 
 namespace pyroscene::pipeline {
@@ -28,6 +29,8 @@ bool passes(CheckResult& result, const std::function<void()>& test) {
 void check_rasters(const Scenario& s, const SceneInputs& in, CheckResult& result) {
     for (std::size_t i = 0; i < in.frames.size(); ++i)
         if (!passes(result, [&] { (void)load_frame(s, in, i); })) break;
+    if (s.inputs.plume && !s.acquisitions.empty())
+        passes(result, [&] { (void)make_plume(s, in, s.acquisitions.front().time_s); });
     if (s.inputs.fuel_load) {
         const auto& fuel = *s.inputs.fuel_load;
         passes(result, [&] {

@@ -74,6 +74,18 @@ std::string scene_text(const Scenario& s) {
                              s.start.unix_s, s.seed, s.products.truth);
 }
 
+std::string plume_text(const Scenario& s) {
+    const auto& p = s.plume.parameters;
+    std::string out = fmt::format("plume {}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{};", s.plume.rise, fmt::join(p.voxel_m, ","),
+                                  p.top_m, p.duration_s, p.minimum_excess_K, p.entrainment, p.merge_m,
+                                  p.emission_factor_g_kg, p.heat_of_combustion_J_kg, p.temperature_K.value_or(-1.0),
+                                  s.plume.smoke, s.plume.grey_absorption_per_m.value_or(-1.0));
+    if (const auto& in = s.inputs.plume)
+        out += fmt::format("{}|{}|{}|{};", fmt::join(in->times_s, ","), fmt::join(in->levels_m, ","),
+                           static_cast<int>(in->quantity), in->variable);
+    return out;
+}
+
 std::string sensor_text(const std::string& id_or_path) {
     const auto shipped = sensor_folder() / "specs" / (id_or_path + ".yaml");
     std::error_code ignored;
@@ -103,7 +115,9 @@ std::string Fingerprints::image(const scenario::Acquisition& a) const {
     pose += fmt::format("|{}|{}|{}", p.heading_deg, p.pitch_deg, p.roll_deg);
     if (p.map_xy_m) pose += fmt::format("|{}", fmt::join(*p.map_xy_m, ","));
     if (p.lat_lon_deg) pose += fmt::format("|{}", fmt::join(*p.lat_lon_deg, ","));
-    return sha256(base_ + fire_text(scenario_) + scene_text(scenario_) + sensor_text(a.sensor) + pose).substr(0, 32);
+    return sha256(base_ + fire_text(scenario_) + scene_text(scenario_) + plume_text(scenario_) + sensor_text(a.sensor) +
+                  pose)
+        .substr(0, 32);
 }
 
 std::string Fingerprints::product(const scenario::Acquisition& a) const {

@@ -270,7 +270,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     std::vector<Spectrum> responses;
     for (const int b : job.bands) responses.push_back(job.sensor.bands[static_cast<std::size_t>(b)].response);
     const double sensor_agl_m = std::max(1.0, job.pose.position.h_m - in.mean_height_m);
-    const auto spectral = make_spectral_scene(scenario, in, responses, sensor_agl_m, sun.centre(), report);
+    const auto spectral = make_spectral_scene(scenario, in, job.fire, responses, sensor_agl_m, sun.centre(), report);
 
     const double flame_top_m = std::max(job.fire.flame.z_range_m()[1], job.fire.plume.z_range_m()[1]);
     const sensors::FrameChords chords(job.sensor, job.group, job.pose, map, in.origin_m, in.lowest_m - 10.0,

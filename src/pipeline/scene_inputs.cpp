@@ -205,6 +205,7 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     if (in.wind && in.wind->raster) sources.push_back(&*in.wind->raster);
     if (in.cover) sources.push_back(&in.cover->raster);
     std::set<std::filesystem::path> unique;
+    if (in.plume) unique.insert(in.plume->files.begin(), in.plume->files.end());
     for (const auto* source : sources) unique.insert(source->files.begin(), source->files.end());
     return {unique.begin(), unique.end()};
 }

@@ -169,6 +169,7 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     inputs.spread_rate = read_optional(node.child("spread_rate"), folder, kStatic);
     if (const auto wind = node.child("wind"); wind.present()) inputs.wind = read_wind(wind, folder);
     if (const auto cover = node.child("cover"); cover.present()) inputs.cover = read_cover(cover, folder);
+    if (const auto plume = node.child("plume"); plume.present()) inputs.plume = read_plume_source(plume, folder);
     node.finish();
     return inputs;
 }

@@ -27,6 +27,9 @@ void read_flame_relations(const config::Node& fire, fire::FireParameters& parame
 /// Reports inputs that the chosen flame relations need and do not have, and the reverse.
 void check_flame_inputs(const config::Node& root, const Scenario& scenario);
 FlameSettings read_flame(const config::Node& node);
+PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire);
+/// \param folder  of the scenario file
+PlumeSource read_plume_source(const config::Node& node, const std::filesystem::path& folder);
 SurfaceSettings read_surface(const config::Node& node);
 AtmosphereSource read_atmosphere(const config::Node& node, const std::filesystem::path& folder);
 RenderSettings read_render(const config::Node& node);

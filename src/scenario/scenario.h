@@ -10,6 +10,7 @@
 
 #include "base/flame_gas.h"
 #include "fire/flame_field.h"
+#include "fire/plume.h"
 #include "fire/state.h"
 
 namespace pyroscene::scenario {
@@ -33,12 +34,23 @@ struct CoverSource {
     std::string table;  ///< fbfm13, fbfm40, or a CSV file: code,surface
 };
 
+/// A three-dimensional field above the fire: one band per level.
+struct PlumeSource {
+    enum class Quantity { Temperature, Excess, Buoyancy };
+    std::vector<std::filesystem::path> files;  ///< one per moment
+    std::vector<double> times_s;               ///< one per file; empty = one file for all times
+    std::vector<double> levels_m;              ///< heights above the terrain, ascending, one per band
+    Quantity quantity = Quantity::Temperature;
+    std::string variable;  ///< of a netCDF file with several; empty = the file as it is
+};
+
 struct Inputs {
     RasterSource terrain, heat_flux;
     std::optional<RasterSource> fuel_load, arrival;
     std::optional<RasterSource> fireline_intensity, flame_length, spread_rate;  ///< as the front passes; static
     std::optional<WindSource> wind;                                             ///< absent = calm
     std::optional<CoverSource> cover;                                           ///< absent = surface.unburned everywhere
+    std::optional<PlumeSource> plume;
 };
 
 /// Days since 1970 arithmetic is done once, here: seconds since the Unix epoch, UTC.
@@ -80,6 +92,14 @@ struct RenderSettings {
     bool sun = true;  ///< false = solar terms off whatever the hour
 };
 
+/// Smoke and hot gas above the fire.
+struct PlumeSettings {
+    bool rise = false;  ///< plume rise model; a 3-D input is used when there is one
+    fire::PlumeParameters parameters;
+    std::string smoke = "savanna";                ///< kind of smoke (radiometry/smoke.h)
+    std::optional<double> grey_absorption_per_m;  ///< of every plume voxel, instead of smoke
+};
+
 /// Pose of a frame: over a map place or at geographic coordinates.
 struct Platform {
     std::optional<std::array<double, 2>> map_xy_m;     ///< over: {x_m, y_m}
@@ -116,6 +136,7 @@ struct Scenario {
     fire::Physics physics = fire::Physics::Default;
     fire::FireParameters fire;
     FlameSettings flame;
+    PlumeSettings plume;
     SurfaceSettings surface;
     AtmosphereSource atmosphere;
     RenderSettings render;

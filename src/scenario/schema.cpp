@@ -57,6 +57,21 @@ constexpr const char* kSchema = R"json({
         "fireline_intensity": {"$ref": "#/$defs/static", "description": "as the front passes, W m-1"},
         "flame_length": {"$ref": "#/$defs/static", "description": "along the leaning axis, m; for flame_height.method: raster"},
         "spread_rate": {"$ref": "#/$defs/static", "description": "of the front, m s-1; default: from arrival"},
+        "plume": {
+          "description": "three-dimensional field above the fire, one band per level",
+          "type": "object",
+          "additionalProperties": false,
+          "required": ["levels_m"],
+          "properties": {
+            "file": {"type": "string"},
+            "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+            "times_s": {"$ref": "#/$defs/times_s"},
+            "levels_m": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},
+              "description": "heights above the terrain, ascending, one per band"},
+            "quantity": {"enum": ["temperature", "excess", "buoyancy"], "default": "temperature"},
+            "variable": {"type": "string", "description": "of a netCDF file with several"}
+          }
+        },
         "cover": {
           "description": "class of each cell and the table that gives each class a surface spectrum",
           "type": "object",
@@ -179,6 +194,26 @@ constexpr const char* kSchema = R"json({
         "voxel_m": {"type": "array", "minItems": 3, "maxItems": 3, "default": [5, 5, 1],
           "items": {"type": "number", "minimum": 0.05, "maximum": 200}},
         "ember_gap_m": {"type": "number", "minimum": 0, "maximum": 100, "default": 0.5}
+      }
+    },
+    "plume": {
+      "description": "smoke and hot gas above the fire: from inputs.plume, or risen by a model",
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "model": {"enum": ["none", "rise"], "default": "none"},
+        "voxel_m": {"type": "array", "minItems": 3, "maxItems": 3, "default": [20, 20, 20],
+          "items": {"type": "number", "minimum": 0.5, "maximum": 1000}},
+        "top_m": {"type": "number", "exclusiveMinimum": 0, "maximum": 20000, "default": 1500},
+        "duration_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e5, "default": 600},
+        "minimum_excess_K": {"type": "number", "minimum": 0, "maximum": 1000, "default": 1},
+        "entrainment": {"type": "number", "minimum": 0.05, "maximum": 2, "default": 0.6},
+        "merge_m": {"type": "number", "minimum": 0, "maximum": 1e5, "default": 200},
+        "temperature_K": {"$ref": "#/$defs/temperature_K", "description": "of every voxel, instead of the computed one"},
+        "absorption_per_m": {"type": "number", "minimum": 0, "maximum": 1e3, "description": "grey, of every voxel, instead of smoke"},
+        "smoke": {"enum": ["savanna", "cerrado", "amazon_forest", "boreal_forest"], "default": "savanna"},
+        "emission_factor_g_kg": {"type": "number", "minimum": 0, "maximum": 1000, "default": 10},
+        "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 1e8, "default": 17.433e6}
       }
     },
     "scar": {

@@ -46,6 +46,7 @@ render::RenderScene TestScene::scene() const {
     s.surface = &surface;
     s.cover = &cover;
     s.flame = &flame;
+    s.plume = &plume;
     s.optics = &optics;
     s.spectral = &spectral;
     s.atmosphere = &atmosphere;

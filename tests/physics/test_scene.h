@@ -54,7 +54,7 @@ public:
     std::unique_ptr<render::TerrainMesh> terrain;
     fire::SurfaceField surface;
     Raster<std::uint8_t> cover;
-    fire::FlameField flame;
+    fire::FlameField flame, plume;
     render::SceneOptics optics;
     radiometry::SpectralGrid spectral;
     radiometry::ViewAtmosphere atmosphere;

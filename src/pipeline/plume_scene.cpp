@@ -1,0 +1,75 @@
+#include "pipeline/plume_scene.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "gis/raster_input.h"
+#include "radiometry/smoke.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+using scenario::PlumeSource;
+using scenario::Scenario;
+
+/// The file of the last moment at or before a time, as GDAL wants it named.
+std::filesystem::path file_at(const PlumeSource& source, double time_s) {
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < source.times_s.size(); ++i)
+        if (source.times_s[i] <= time_s) found = i;
+    if (!source.times_s.empty() && source.times_s.front() > time_s)
+        throw input_error("inputs.plume.times_s", fmt::format("the first field is of {} s, needed is one at or before {} s",
+                                                              source.times_s.front(), time_s));
+    const auto& file = source.files[found];
+    if (source.variable.empty()) return file;
+    return fmt::format("NETCDF:\"{}\":{}", file.string(), source.variable);
+}
+
+/// A quantity of the input as excess over the air.
+void to_excess_K(Raster<float>& level, PlumeSource::Quantity quantity, double air_K) {
+    for (float& value : level.values) {
+        if (quantity == PlumeSource::Quantity::Temperature) value = static_cast<float>(value - air_K);
+        if (quantity == PlumeSource::Quantity::Buoyancy)
+            value = static_cast<float>(fire::excess_of_buoyancy_K(value, air_K));
+    }
+}
+
+fire::FlameField plume_of_input(const Scenario& scenario, const SceneInputs& in, double time_s) {
+    const PlumeSource& source = *scenario.inputs.plume;
+    const auto file = file_at(source, time_s);
+    const auto bands = gis::read_info(file).bands.size();
+    if (bands != source.levels_m.size())
+        throw input_error("inputs.plume.levels_m", fmt::format("{} heights, but '{}' has {} bands; each is a level",
+                                                               source.levels_m.size(), file.string(), bands));
+    const char* unit = source.quantity == PlumeSource::Quantity::Buoyancy ? "" : "K";
+    const auto& p = scenario.plume.parameters;
+    std::vector<Raster<float>> levels;
+    for (std::size_t b = 0; b < bands; ++b) {
+        levels.push_back(gis::read_band({file, static_cast<int>(b) + 1, gis::Resampling::Bilinear, "plume", unit}, in.grid));
+        to_excess_K(levels.back(), source.quantity, p.air_temperature_K);
+    }
+    return fire::plume_of_levels(levels, source.levels_m, in.terrain_m, p, in.origin_m);
+}
+
+}  // namespace
+
+fire::FlameField make_plume(const Scenario& scenario, const SceneInputs& in, double time_s) {
+    if (scenario.inputs.plume) return plume_of_input(scenario, in, time_s);
+    if (!scenario.plume.rise) return {};
+    const auto frame = load_frame(scenario, in, frame_at(in.frames, time_s, "plume"));
+    return fire::rising_plume(frame, in.terrain_m, scenario.plume.parameters, in.origin_m);
+}
+
+std::vector<float> plume_absorption_per_m(const Scenario& scenario, const radiometry::SpectralGrid& grid) {
+    const auto n = static_cast<std::size_t>(grid.size());
+    if (const auto& grey = scenario.plume.grey_absorption_per_m) return std::vector<float>(n, static_cast<float>(*grey));
+    const auto smoke =
+        radiometry::load_smoke_optics(data_folder() / "optical" / "smoke_optics_fine.csv", scenario.plume.smoke);
+    std::vector<float> absorption;
+    for (const double lambda_um : grid.lambda_um)
+        absorption.push_back(static_cast<float>(radiometry::smoke_absorption_m2_g(smoke, lambda_um)));
+    return absorption;
+}
+
+}  // namespace pyroscene::pipeline
