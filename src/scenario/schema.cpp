@@ -68,7 +68,7 @@ constexpr const char* kSchema = R"json({
             "times_s": {"$ref": "#/$defs/times_s"},
             "levels_m": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},
               "description": "heights above the terrain, ascending, one per band"},
-            "quantity": {"enum": ["temperature", "excess", "buoyancy"], "default": "temperature"},
+            "quantity": {"enum": ["temperature", "excess", "buoyancy"], "description": "without it: temperature"},
             "variable": {"type": "string", "description": "of a netCDF file with several"}
           }
         },

@@ -21,7 +21,7 @@ TEST(PlumeAxis, FollowsTheTwoThirdsLaw) {
     for (const auto& point : axis) {
         if (point.downwind_m < 200.0) continue;
         const double briggs_m = 1.60915 * std::cbrt(F) * std::pow(point.downwind_m, 2.0 / 3.0) / u;
-        EXPECT_NEAR(point.height_m / briggs_m, 1.0, 0.03) << point.downwind_m;
+        EXPECT_NEAR(point.height_m / briggs_m, 1.0, 0.04) << point.downwind_m;
     }
 }
 
