@@ -1,10 +1,15 @@
 #include "pipeline/energy.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/constants.h"
+#include "base/csv.h"
+#include "gis/raster_input.h"
+#include "gis/raster_output.h"
+#include "pipeline/state_file.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -19,10 +24,48 @@ double heat_release_W(const scenario::Scenario& scenario, const SceneInputs& in,
     return sum * in.grid.cell_area_m2();
 }
 
-/// Planck-mean absorption of soot, 1340 fv T [1/m] near 1000-1100 K, or the grey value of the scenario.
-double mean_absorption_per_m(const scenario::FlameSettings& flame, double temperature_K) {
+/// Thin emission of all voxels: Planck-mean absorption of soot, 1340 fv T [1/m] near 1000-1100 K, or the grey value.
+double flame_power_W(const scenario::FlameSettings& settings, const FireScene& scene) {
     constexpr double kSootPlanckMean_per_m_K = 1340.0;
-    return flame.grey_absorption_per_m.value_or(kSootPlanckMean_per_m_K * flame.gas.soot_volume_fraction * temperature_K);
+    const auto& grid = scene.flame.grid;
+    double sum = 0.0;
+    for (const auto& brick : scene.flame.bricks)
+        for (std::size_t v = 0; v < brick.fill.size(); ++v) {
+            if (!(brick.fill[v] > 0.0F)) continue;
+            const double T_K = brick.temperature_K[v];
+            const double k_per_m =
+                settings.grey_absorption_per_m.value_or(kSootPlanckMean_per_m_K * scene.gas.soot_volume_fraction * T_K);
+            sum += brick.fill[v] * k_per_m * fourth_power(T_K);
+        }
+    return 4.0 * kStefanBoltzmann_W_m2_K4 * sum * grid.dx_m * grid.dy_m * grid.dz_m;
+}
+
+double front_power_W(const fire::SurfaceField& surface) {
+    double area = 0.0;
+    for (std::size_t i = 0; i < surface.front_fraction.size(); ++i)
+        if (!std::isnan(surface.base_temperature_K[i])) area += surface.front_fraction[i];
+    return area * fourth_power(surface.front_temperature_K) * kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
+}
+
+/// Fuel that burnt up to the last frame [kg].
+double fuel_consumed_kg(const scenario::RasterSource& source, const SceneInputs& in, const fire::FireState& last) {
+    const auto bands = gis::read_info(source.files.back()).bands.size();
+    const auto read = [&](const std::filesystem::path& file, int band) {
+        return gis::read_band({file, band, gis::Resampling::Conserve, "fuel load", "kg m-2"}, in.grid);
+    };
+    const int first_band = source.bands.empty() ? 1 : source.bands.front();
+    const int last_band = source.bands.empty() ? static_cast<int>(bands) : source.bands.back();
+    const bool series = source.files.size() > 1 || last_band != first_band;
+    const auto before = read(source.files.front(), first_band);
+    const auto after = series ? read(source.files.back(), last_band) : Raster<float>(in.grid, "none", "kg m-2", 0.0F);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < before.values.size(); ++i) {
+        const auto c = static_cast<fire::CellClass>(last.cell_class.values[i]);
+        if (!series && c != fire::CellClass::Front && c != fire::CellClass::Scar) continue;
+        const double burnt_kg_m2 = static_cast<double>(before.values[i]) - after.values[i];
+        if (burnt_kg_m2 > 0.0) sum += burnt_kg_m2;
+    }
+    return sum * in.grid.cell_area_m2();
 }
 
 }  // namespace
@@ -40,9 +83,7 @@ void record_energy(RunReport& report, const scenario::Scenario& scenario, const 
     }
     front_W *= kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
     scar_W *= kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
-    const double flame_K = scenario.flame.parameters.temperature_K;
-    const double flame_W = 4.0 * mean_absorption_per_m(scenario.flame, flame_K) * kStefanBoltzmann_W_m2_K4 *
-                           fourth_power(flame_K) * scene.flame.emissive_volume_m3();
+    const double flame_W = flame_power_W(scenario.flame, scene);
     const double released_W = heat_release_W(scenario, in, state.time_s);
 
     const auto prefix = "energy/" + acquisition_id + "/";
@@ -59,6 +100,69 @@ void record_energy(RunReport& report, const scenario::Scenario& scenario, const 
             fmt::format("acquisition '{}': front and flame radiate {:.0f} % of the heat released (published: 10-25 %); "
                         "see fire.flaming_heat_flux_W_m2 and flame.soot_volume_fraction",
                         acquisition_id, 100.0 * fraction));
+}
+
+void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario, const fire::FireState& state,
+                           FireScene& scene, const std::string& acquisition_id) {
+    const auto& flame = scenario.flame;
+    if (!flame.radiant_fraction) return;
+    const double wanted_W = *flame.radiant_fraction * state.heat_release_W - front_power_W(scene.surface);
+    const double flame_W = flame_power_W(flame, scene);
+    if (!(wanted_W > 0.0 && flame_W > 0.0)) {
+        report.warn(fmt::format("acquisition '{}': flame.radiant_fraction {} cannot be met: {}", acquisition_id,
+                                *flame.radiant_fraction,
+                                flame_W > 0.0 ? "the front alone radiates more" : "there is no flame to scale"));
+        return;
+    }
+    const auto prefix = "energy/" + acquisition_id + "/";
+    if (!flame.adjust_temperature) {
+        constexpr double kMost = 1e-4;
+        const double wanted = scene.gas.soot_volume_fraction * wanted_W / flame_W;
+        scene.gas.soot_volume_fraction = std::min(wanted, kMost);
+        report.record(prefix + "soot_volume_fraction", scene.gas.soot_volume_fraction);
+        if (wanted > kMost)
+            report.warn(
+                fmt::format("acquisition '{}': flame.radiant_fraction needs a soot volume fraction of {:.2g}; {} is used",
+                            acquisition_id, wanted, kMost));
+        return;
+    }
+    const double factor = std::pow(wanted_W / flame_W, flame.grey_absorption_per_m ? 0.25 : 0.2);
+    const auto [low_K, high_K] = scene.flame.temperature_range_K();
+    const double held = std::clamp(factor, 200.0 / low_K, 3500.0 / high_K);
+    for (auto& brick : scene.flame.bricks)
+        for (float& T_K : brick.temperature_K) T_K = static_cast<float>(T_K * held);
+    report.record(prefix + "flame_temperature_factor", held);
+    if (held != factor)
+        report.warn(
+            fmt::format("acquisition '{}': flame.radiant_fraction needs {:.2f} times the flame temperature; {:.2f} is used",
+                        acquisition_id, factor, held));
+}
+
+void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& in,
+                          const std::filesystem::path& output) {
+    double released_J = 0.0, before_W = 0.0;
+    for (std::size_t i = 0; i < in.frames.size(); ++i) {
+        const auto path = state_path(output, in.frames[i].time_s);
+        const auto metadata = gis::read_metadata(path);
+        const auto found =
+            metadata ? metadata->find("HEAT_RELEASE_W") : std::map<std::string, std::string>::const_iterator{};
+        if (!metadata || found == metadata->end()) return;
+        const double now_W = parse_number(found->second, path.string() + ": HEAT_RELEASE_W");
+        if (i > 0) released_J += 0.5 * (before_W + now_W) * (in.frames[i].time_s - in.frames[i - 1].time_s);
+        before_W = now_W;
+    }
+    report.record("energy/inputs/heat_released_J", released_J);
+    if (!scenario.inputs.fuel_load) return;
+    const auto last = read_state(state_path(output, in.frames.back().time_s), in.grid, in.arrival_time_s);
+    const double fuel_J =
+        fuel_consumed_kg(*scenario.inputs.fuel_load, in, last) * scenario.plume.parameters.heat_of_combustion_J_kg;
+    report.record("energy/inputs/fuel_heat_J", fuel_J);
+    if (fuel_J > 0.0) report.record("energy/inputs/released_per_fuel_heat", released_J / fuel_J);
+    if (released_J > 1.1 * fuel_J)
+        report.warn(
+            fmt::format("the heat flux releases {:.3g} J, but the fuel that burnt holds {:.3g} J ({:.1f} times less); "
+                        "flame sizes and powers are overstated, or frames are too far apart for the integral",
+                        released_J, fuel_J, released_J / std::max(fuel_J, 1.0)));
 }
 
 }  // namespace pyroscene::pipeline

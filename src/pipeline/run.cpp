@@ -117,7 +117,10 @@ void prepare_phase(Session& s) {
     const auto print_of = [&](std::size_t i) { return s.fingerprints.state(s.inputs.frames[i].time_s); };
     while (first < count && is_current(path_of(first), print_of(first), s.options)) ++first;
     s.report.count("states_skipped", static_cast<std::int64_t>(first));
-    if (first == count) return;
+    if (first == count) {
+        record_inputs_energy(s.report, s.scenario, s.inputs, s.options.output);
+        return;
+    }
     if (first > 0) previous = read_state(path_of(first - 1), s.inputs.grid, s.inputs.arrival_time_s);
     for (std::size_t i = first; i < count; ++i) {
         s.stop_if_cancelled();
@@ -129,6 +132,7 @@ void prepare_phase(Session& s) {
         previous = std::move(state);
         s.report.count("states_made", 1);
     }
+    record_inputs_energy(s.report, s.scenario, s.inputs, s.options.output);
     s.progress("prepare", 1.0);
 }
 
@@ -163,6 +167,7 @@ void render_acquisition(Session& s, const Acquisition& acquisition, std::optiona
             const PhaseTimer timer(s.report, "render/fire_scene");
             state = state_for(s, acquisition);
             scene = make_fire_scene(s.scenario, s.inputs, *state, acquisition.time_s);
+            meet_radiant_fraction(s.report, s.scenario, *state, *scene, acquisition.id);
             record_energy(s.report, s.scenario, s.inputs, *state, *scene, acquisition.id);
         }
         const GroupJob job{s.scenario,

@@ -119,6 +119,10 @@ FlameSettings read_flame(const config::Node& node) {
         node.child("soot_volume_fraction").report("is in 'composition' too; give it once");
     read_profile(node, p);
     flame.grey_absorption_per_m = node.optional_number("absorption_per_m", Range::between(0.0, 1e4));
+    flame.radiant_fraction = node.optional_number("radiant_fraction", Range{0.0, 0.9, true});
+    flame.adjust_temperature = node.choice("adjust", "soot", {"soot", "temperature"}) == "temperature";
+    if (flame.radiant_fraction && !flame.adjust_temperature && node.has("absorption_per_m"))
+        node.child("radiant_fraction").report("a grey flame has no soot to scale; give 'adjust: temperature'");
     p.ember_gap_m = node.number("ember_gap_m", p.ember_gap_m, Range::between(0.0, 100.0));
     const bool soot = node.has("soot_volume_fraction") || node.child("composition").has("soot_volume_fraction");
     if (soot && node.has("absorption_per_m"))

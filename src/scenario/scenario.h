@@ -79,6 +79,8 @@ struct FlameSettings {
     FlameGas gas;
     std::optional<double> grey_absorption_per_m;  ///< wavelength-independent absorption instead of soot
     bool off = false;                             ///< no flames at all
+    std::optional<double> radiant_fraction;       ///< (front + flame) / heat released, to be met by scaling the flame
+    bool adjust_temperature = false;              ///< scale its temperature instead of its soot
 };
 
 struct RenderSettings {

@@ -193,6 +193,9 @@ constexpr const char* kSchema = R"json({
         "absorption_per_m": {"type": "number", "minimum": 0, "maximum": 1e4, "description": "grey, instead of soot"},
         "voxel_m": {"type": "array", "minItems": 3, "maxItems": 3, "default": [5, 5, 1],
           "items": {"type": "number", "minimum": 0.05, "maximum": 200}},
+        "radiant_fraction": {"type": "number", "exclusiveMinimum": 0, "maximum": 0.9,
+          "description": "(front + flame) / heat released, met by scaling the flame"},
+        "adjust": {"enum": ["soot", "temperature"], "default": "soot"},
         "ember_gap_m": {"type": "number", "minimum": 0, "maximum": 100, "default": 0.5}
       }
     },

@@ -1,0 +1,64 @@
+// The radiant fraction that the scenario asks for is met, by soot or by temperature, and reported.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+
+#include "base/files.h"
+#include "system/support.h"
+
+namespace pyroscene::test {
+namespace {
+
+double value_of(const std::string& json, const std::string& key) {
+    std::smatch found;
+    if (!std::regex_search(json, found, std::regex("\"" + key + "\": ([-0-9.eE+]+)"))) return -1.0;
+    return std::stod(found[1]);
+}
+
+/// run.json of the minimal scenario with more lines.
+std::string run_with(const ScratchFolder& folder, const std::string& flame) {
+    for (const char* file : {"dem.tif", "heat_flux.tif", "camera.yaml"})
+        std::filesystem::copy(source_folder() / "scenarios" / "minimal" / file, folder / file);
+    auto text = read_text_file(source_folder() / "scenarios" / "minimal" / "scenario.yaml");
+    text += "\nflame: " + flame + "\nproducts: [radiance]\nrender: {flame_light: false}\n";
+    std::ofstream(folder / "scenario.yaml") << text;
+    const auto result = pyroscene_cli("run " + (folder / "scenario.yaml").string() + " -o " + (folder / "out").string());
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return read_text_file(folder / "out" / "run.json");
+}
+
+TEST(RadiantFraction, IsMetByEitherMeans) {
+    for (const std::string flame :
+         {"{radiant_fraction: 0.21, adjust: soot}", "{radiant_fraction: 0.21, adjust: temperature}",
+          "{radiant_fraction: 0.21, adjust: temperature, absorption_per_m: 0.4}",
+          "{radiant_fraction: 0.21, profile: mccaffrey}"}) {
+        const ScratchFolder folder;
+        const auto json = run_with(folder, flame);
+        EXPECT_NEAR(value_of(json, "radiant_fraction") / 0.21, 1.0, 0.01) << flame << json;
+        const bool soot = flame.find("temperature") == std::string::npos;
+        EXPECT_GT(value_of(json, soot ? "soot_volume_fraction" : "flame_temperature_factor"), 0.0) << flame;
+        EXPECT_GT(value_of(json, "heat_released_J"), 0.0);
+    }
+}
+
+TEST(RadiantFraction, SaysWhenTheFrontAloneRadiatesMore) {
+    const ScratchFolder folder;
+    EXPECT_NE(run_with(folder, "{radiant_fraction: 0.05}").find("cannot be met: the front alone radiates more"),
+              std::string::npos);
+}
+
+// Voxels of any size carry the same thin emission.
+TEST(FlamePower, DoesNotDependOnTheVoxels) {
+    double finest_W = 0.0;
+    for (const std::string edge : {"2", "5", "10", "20"}) {
+        const ScratchFolder folder;
+        const double flame_W = value_of(
+            run_with(folder, "{profile: mccaffrey, voxel_m: [" + edge + ", " + edge + ", " + edge + "]}"), "flame_W");
+        if (finest_W == 0.0) finest_W = flame_W;
+        EXPECT_NEAR(flame_W / finest_W, 1.0, 0.01) << edge;
+    }
+}
+
+}  // namespace
+}  // namespace pyroscene::test
