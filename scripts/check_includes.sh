@@ -27,7 +27,7 @@ BEGIN {
     foreign["analysis"] = "^boost/math/"
     foreign["config"]   = "^yaml-cpp/"
     foreign["render"]   = "^(embree3/|tbb/|oneapi/tbb)"
-    foreign["pipeline"] = "^(tbb/|oneapi/tbb|opencv2/|nlohmann/|openssl/)"
+    foreign["pipeline"] = "^(tbb/|oneapi/tbb|opencv2/|openvdb/|nlohmann/|openssl/)"
     foreign["cli"]      = "^(CLI/|spdlog/)"
 
     standard = "^[a-z0-9_]+$"

@@ -2,6 +2,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -98,8 +99,24 @@ std::vector<double> flame_emissivity(const Arguments& a) {
 }
 
 std::vector<double> scar_temperature(const Arguments& a) {
-    const fire::ScarCooling curve{a.number("amplitude1_K"), a.number("time_constant1_s"), a.number("amplitude2_K"),
-                                  a.number("time_constant2_s"), a.number("floor_K")};
+    const fire::ScarModelRow* model = nullptr;
+    std::vector<std::string> names;
+    for (const auto& row : fire::scar_models()) {
+        names.emplace_back(row.name);
+        if (a.text("model") == row.name) model = &row;
+    }
+    if (model == nullptr)
+        throw input_error("--model", fmt::format("'{}' is unknown; there are {}", a.text("model"), fmt::join(names, ", ")));
+    fire::ScarCooling curve = model->defaults;
+    for (const auto& [name, value] : {std::pair{"amplitude1_K", &curve.amplitude1_K},
+                                      {"time_constant1_s", &curve.time_constant1_s},
+                                      {"amplitude2_K", &curve.amplitude2_K},
+                                      {"time_constant2_s", &curve.time_constant2_s},
+                                      {"floor_K", &curve.floor_K}})
+        if (a.has(name)) *value = a.number(name);
+    if (model->terms == 1 && a.has("amplitude2_K")) throw input_error("--amplitude2_K", "single_exponential has one term");
+    if (!(curve.time_constant1_s > 0.0 && curve.time_constant2_s > 0.0))
+        throw input_error("--time_constant1_s, --time_constant2_s", "must be above 0");
     return {fire::scar_temperature_K(curve, a.number("time_s"))};
 }
 
@@ -172,13 +189,14 @@ const std::vector<Calculation>& calculations() {
         flame_height_calculation(),
         flame_tilt_calculation(),
         {"scar-temperature",
-         "burn scar cooling (thesis eq 4.17, coefficients of eq 4.18)",
+         "burn scar cooling: double_exponential (thesis eq 4.17, numbers of 4.18) or single_exponential (2.9 with ambient)",
          {{"time_s", {}},
-          {"amplitude1_K", "578.97"},
-          {"time_constant1_s", "74.88"},
-          {"amplitude2_K", "197.5"},
-          {"time_constant2_s", "247.72"},
-          {"floor_K", "306.34"}},
+          {"model", "double_exponential"},
+          {"amplitude1_K", {}, true},
+          {"time_constant1_s", {}, true},
+          {"amplitude2_K", {}, true},
+          {"time_constant2_s", {}, true},
+          {"floor_K", {}, true}},
          {"temperature_K"},
          scar_temperature},
     };

@@ -14,6 +14,7 @@
 #include "cli/atmosphere_commands.h"
 #include "cli/calc.h"
 #include "cli/compare_command.h"
+#include "cli/export_command.h"
 #include "cli/fit_scar_command.h"
 #include "cli/frp_command.h"
 #include "cli/progress.h"
@@ -43,6 +44,7 @@ struct Arguments {
     cli::UnmixOptions unmix;
     cli::FrpOptions frp;
     cli::CompareOptions compare;
+    cli::ExportOptions flame_export;
     int threads = 0;
     bool force = false, quiet = false, json = false, print_schema = false;
     int verbose = 0;
@@ -118,6 +120,11 @@ int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line)
             cli::list_sensors(a.json);
         else
             cli::show_sensor(a.sensor, a.json);
+    } else if (app.got_subcommand("export")) {
+        auto options = a.flame_export;
+        options.quiet = a.quiet;
+        options.cancelled = &interrupted;
+        cli::export_command(options);
     } else if (app.got_subcommand("fit-scar")) {
         auto options = a.fit_scar;
         options.quiet = a.quiet;
@@ -225,6 +232,27 @@ void add_compare(CLI::App& app, cli::CompareOptions& o) {
     sub->footer("Example: pyroscene compare out/lolo_peak/wasp_1h/ortho_radiance.tif flight_line.tif -o out/comparison");
 }
 
+void add_export(CLI::App& app, cli::ExportOptions& o) {
+    auto* sub = app.add_subcommand("export", "the flames of one moment as voxels for other programs, or as a side view");
+    sub->add_option("SCENARIO", o.scenario, "scenario file (YAML)")->required();
+    sub->add_option("--acquisition", o.acquisitions, "the moment of this acquisition");
+    sub->add_option("--time_s", o.time_s, "or any moment, seconds after ignition");
+    sub->add_option("--format", o.format, "what to write")->required()->check(CLI::IsMember(cli::export_formats()));
+    sub->add_option("-o,--output", o.output, "file (default: out/<scenario name>/export/<acquisition or time>)");
+    sub->add_option("--voxel_m", o.voxel_m, "edges east,north,up (default: flame.voxel_m; the thesis: 20,20,5)")
+        ->delimiter(',');
+    sub->add_option("--layers", o.layers, "height of the lattice in voxels (default: as needed; the thesis: 64)")
+        ->check(CLI::Range(1, 100000));
+    sub->add_flag("--above-ground", o.above_ground, "heights count from the ground below: a flat scene");
+    sub->add_option("--window_m", o.window_m, "side-view: west,east,south,north, metres from the map's centre")
+        ->delimiter(',');
+    sub->add_option("--material", o.material, "dirsig-grid: material id")->capture_default_str();
+    sub->add_option("--concentration_ppm", o.concentration_ppm, "dirsig-grid: of a voxel filled with flame")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    sub->footer("Example: pyroscene export scenarios/minimal/scenario.yaml --time_s 60 --format csv -o out/flames.csv");
+}
+
 /// The words after `calc`. Its options are those of the formula, so they are not the parser's business (but --help is).
 std::vector<std::string> calc_words(int argc, char** argv) {
     int i = 1;
@@ -258,6 +286,7 @@ int main(int argc, char** argv) {
     check->add_option("SCENARIO", a.scenario, "scenario file (YAML)");
     check->add_flag("--print-schema", a.print_schema, "print the JSON Schema of scenario files");
     check->footer("Example: pyroscene check scenarios/lolo_peak/scenario.yaml");
+    add_export(app, a.flame_export);
     add_fit_scar(app, a.fit_scar);
     add_unmix(app, a.unmix);
     add_frp(app, a.frp);

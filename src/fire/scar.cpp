@@ -34,8 +34,19 @@ double scar_temperature_K(const ScarCooling& cooling, double time_s) noexcept {
            cooling.amplitude2_K * std::exp(-t / cooling.time_constant2_s) + cooling.floor_K;
 }
 
+const ScarCooling& scar_of_cell(const FireState& state, const FireParameters& parameters, std::size_t cell) noexcept {
+    const std::size_t scar_class = state.scar_class.values.empty() ? 0 : state.scar_class.values[cell];
+    return scar_class == 0 || scar_class > parameters.scar_of_cover.size()
+               ? parameters.scar
+               : parameters.scar_of_cover[scar_class - 1].cooling;
+}
+
+double scar_or_ambient_K(const FireParameters& parameters, const ScarCooling& cooling, double time_s) noexcept {
+    return std::max(parameters.ambient_temperature_K, scar_temperature_K(cooling, time_s));
+}
+
 double scar_or_ambient_K(const FireParameters& parameters, double time_s) noexcept {
-    return std::max(parameters.ambient_temperature_K, scar_temperature_K(parameters.scar, time_s));
+    return scar_or_ambient_K(parameters, parameters.scar, time_s);
 }
 
 }  // namespace pyroscene::fire

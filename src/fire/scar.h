@@ -30,7 +30,12 @@ const ScarModelRow& scar_model(ScarModel model) noexcept;
 /// The fitted floor (33.19 degC) lies below the ambient of the thesis (34 degC): see scar_or_ambient_K.
 double scar_temperature_K(const ScarCooling& cooling, double time_s) noexcept;
 
-/// The scar curve, never colder than the unburned ground beside it [K].
+/// The curve of a map cell: that of its class of cover, else the general one.
+const ScarCooling& scar_of_cell(const FireState& state, const FireParameters& parameters, std::size_t cell) noexcept;
+
+/// A curve, never colder than the unburned ground beside it [K].
+double scar_or_ambient_K(const FireParameters& parameters, const ScarCooling& cooling, double time_s) noexcept;
+/// The general scar curve, never colder than the unburned ground beside it [K].
 double scar_or_ambient_K(const FireParameters& parameters, double time_s) noexcept;
 
 }  // namespace pyroscene::fire

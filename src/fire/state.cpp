@@ -36,6 +36,10 @@ void check(const FireParameters& p) {
     require_positive(p.volumetric_heat_release_W_m3, "fire.volumetric_heat_release_W_m3");
     require_positive(p.scar.time_constant1_s, "scar.time_constant1_s");
     require_positive(p.scar.time_constant2_s, "scar.time_constant2_s");
+    for (const auto& scar : p.scar_of_cover) {
+        require_positive(scar.cooling.time_constant1_s, "scar.by_cover: time_constant1_s");
+        require_positive(scar.cooling.time_constant2_s, "scar.by_cover: time_constant2_s");
+    }
     require_positive(p.air_density_kg_m3, "fire.air_density_kg_m3");
     require_positive(p.air_heat_capacity_J_kg_K, "fire.air_heat_capacity_J_kg_K");
     require_positive(p.air_temperature_K, "fire.air_temperature_K");
@@ -54,6 +58,7 @@ void check(const FireState* previous, const FrameInputs& frame) {
     require_grid(frame.wind_east_m_s, grid, "wind east");
     require_grid(frame.wind_north_m_s, grid, "wind north");
     if (frame.arrival_time_s) require_grid(*frame.arrival_time_s, grid, "arrival time");
+    if (!frame.scar_class.values.empty()) require_grid(frame.scar_class, grid, "scar class");
     if (!std::isfinite(frame.time_s)) throw input_error("frame time", fmt::format("is {}, must be a number", frame.time_s));
     if (previous == nullptr) return;
     require_grid(previous->cell_class, grid, "previous state");
@@ -84,6 +89,7 @@ FireState blank_state(const FireState* previous, const FrameInputs& frame) {
     } else if (previous != nullptr) {
         state.predicted_arrival_time_s = previous->predicted_arrival_time_s;
     }
+    state.scar_class = frame.scar_class;
     if (previous != nullptr) state.height_statistics = previous->height_statistics;
     return state;
 }
@@ -128,7 +134,7 @@ void set_temperatures(FireState& state, const FireParameters& p) {
                 T_K = p.front_temperature_K;
                 break;
             case CellClass::Scar:
-                T_K = scar_or_ambient_K(p, state.time_s - scar_clock_s(state, p.physics, i));
+                T_K = scar_or_ambient_K(p, scar_of_cell(state, p, i), state.time_s - scar_clock_s(state, p.physics, i));
                 break;
             case CellClass::Unburned:
                 break;

@@ -24,6 +24,12 @@ struct ScarCooling {
     double floor_K = 273.15 + 33.19;
 };
 
+/// Cooling curve of one class of ground cover.
+struct CoverScar {
+    int code = 0;  ///< as the cover raster has it
+    ScarCooling cooling;
+};
+
 /// All numbers of the fire model a scenario can set. Defaults: thesis values where usable, else docs/physics-fire.md.
 struct FireParameters {
     Physics physics = Physics::Default;
@@ -31,8 +37,9 @@ struct FireParameters {
     double front_temperature_K = 273.15 + 800.0;   ///< ground under the flames (thesis 6.2)
     double ambient_temperature_K = 273.15 + 34.0;  ///< unburned ground (thesis 6.2)
     double flaming_heat_flux_W_m2 =
-        5.0e5;  ///< heat flux inside the flaming zone; cell mean / this = area fraction that flames
-    ScarCooling scar;
+        5.0e5;         ///< heat flux inside the flaming zone; cell mean / this = area fraction that flames
+    ScarCooling scar;  ///< of all ground that scar_of_cover does not name
+    std::vector<CoverScar> scar_of_cover;         ///< FrameInputs::scar_class says where
     double height_alpha = 1.0;                    ///< scale of flame-height method 1 (eq 4.22), dimensionless
     double volumetric_heat_release_W_m3 = 2.0e6;  ///< chemical heat release per flame volume (thesis: 2000 kW m-3)
     bool one_sigma_rule = true;                   ///< limit heights by the statistics of all earlier frames (thesis 4.6.1)
@@ -71,6 +78,7 @@ struct FrameInputs {
     Raster<float> heat_flux_W_m2;                 ///< surface fire sensible heat flux, cell mean; not finite = no data
     Raster<float> wind_east_m_s, wind_north_m_s;  ///< along the grid's axes; not finite = calm
     std::optional<Raster<float>> arrival_time_s;  ///< seconds since ignition, NaN = never reached
+    Raster<std::uint8_t> scar_class;              ///< 0 = FireParameters::scar, n = scar_of_cover[n - 1]; no values = all 0
     const FrontInputs* front = nullptr;           ///< not owned; null = nothing but the flux is known
 };
 
@@ -95,6 +103,7 @@ struct FireState {
     Raster<float> predicted_arrival_time_s;  ///< the arrival raster as given, later times too; no values when none was given
     Raster<float> last_burning_time_s;       ///< last time the cell is known to have burned, NaN = never
     Raster<float> surface_temperature_K;     ///< at time_s: front, scar curve or ambient
+    Raster<std::uint8_t> scar_class;         ///< as given with the frames; no values when none was given
     Raster<float> front_fraction;            ///< area fraction of the cell that flames, 0 outside the front
     Raster<float> flame_height_m;            ///< eq 4.22 mean over the cell, after the one-sigma rule [m]
     Raster<float> ember_height_m;            ///< part of the height beyond one sigma, detached above the flame

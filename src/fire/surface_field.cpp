@@ -33,8 +33,9 @@ struct Context {
     RandomKey patches;
 };
 
-float scar_K(const Context& c, double clock_s) noexcept {
-    return static_cast<float>(scar_or_ambient_K(c.parameters, c.time_s - clock_s));
+float scar_K(const Context& c, std::size_t cell, double clock_s) noexcept {
+    const auto& cooling = scar_of_cell(c.state, c.parameters, cell);
+    return static_cast<float>(scar_or_ambient_K(c.parameters, cooling, c.time_s - clock_s));
 }
 
 /// Fills `fine` with the fine cells of a map cell and their own arrival times.
@@ -63,17 +64,17 @@ void fill_scar(const Context& c, SurfaceField& out, std::size_t cell, const std:
     for (const FineCell& f : fine) {
         if (partly_reached && !f.reached) continue;
         const bool own = !std::isnan(f.arrival_s) && f.reached;
-        out.base_temperature_K[f.index] = scar_K(c, own ? f.arrival_s : clock_s);
+        out.base_temperature_K[f.index] = scar_K(c, cell, own ? f.arrival_s : clock_s);
         out.burned[f.index] = 1;
     }
 }
 
 /// Sorts the fine cells of a front cell as they flame: reached last ... reached first, next to be reached ... last to be.
 /// Without arrival data, and where the front has passed and only slow fuel burns on, the order is random: patches.
-void sort_by_flaming(const Context& c, std::vector<FineCell>& fine) {
-    const bool passed = std::all_of(fine.begin(), fine.end(), [&](const FineCell& f) {
-        return f.reached && c.time_s - f.arrival_s > c.parameters.scar.time_constant1_s;
-    });
+void sort_by_flaming(const Context& c, std::size_t cell, std::vector<FineCell>& fine) {
+    const double fast_s = scar_of_cell(c.state, c.parameters, cell).time_constant1_s;
+    const bool passed = std::all_of(fine.begin(), fine.end(),
+                                    [&](const FineCell& f) { return f.reached && c.time_s - f.arrival_s > fast_s; });
     for (FineCell& f : fine) {
         const bool strip = !std::isnan(f.arrival_s) && !passed;
         f.order = strip ? std::abs(c.time_s - f.arrival_s) : uniform01(c.patches, f.index);
@@ -85,8 +86,8 @@ void sort_by_flaming(const Context& c, std::vector<FineCell>& fine) {
 }
 
 /// Puts the flaming area of a front cell into its fine cells, whole ones first, so that their sum is the cell's area.
-void distribute_flames(const Context& c, SurfaceField& out, double fraction, std::vector<FineCell>& fine) {
-    sort_by_flaming(c, fine);
+void distribute_flames(const Context& c, SurfaceField& out, std::size_t cell, double fraction, std::vector<FineCell>& fine) {
+    sort_by_flaming(c, cell, fine);
     double left = fraction * static_cast<double>(fine.size());
     for (const FineCell& f : fine) {
         if (!(left > 0.0)) break;
@@ -104,14 +105,14 @@ void fill_front(const Context& c, SurfaceField& out, std::size_t cell, std::vect
     const bool fresh = first_burning_s >= c.state.time_s;
     for (const FineCell& f : fine) {
         if (!f.reached || (std::isnan(f.arrival_s) && fresh)) continue;
-        out.base_temperature_K[f.index] = scar_K(c, std::isnan(f.arrival_s) ? first_burning_s : f.arrival_s);
+        out.base_temperature_K[f.index] = scar_K(c, cell, std::isnan(f.arrival_s) ? first_burning_s : f.arrival_s);
         out.burned[f.index] = 1;
     }
     if (c.parameters.physics == Physics::Thesis) {
         for (const FineCell& f : fine) out.front_fraction[f.index] = fraction;
         return;
     }
-    distribute_flames(c, out, fraction, fine);
+    distribute_flames(c, out, cell, fraction, fine);
 }
 
 SurfaceField blank_field(const FireState& state, const FireParameters& parameters, int refinement) {

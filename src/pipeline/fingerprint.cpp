@@ -45,6 +45,10 @@ std::string fire_text(const Scenario& s) {
                     f.air_heat_capacity_J_kg_K, f.air_temperature_K, f.maximum_tilt_rad, f.jitter_m, f.seed);
     const auto& e = f.embers;
     out += fmt::format("|{}|{}|{}|{}|{};", e.drift, e.cooling_time_s, e.lifetime_s, e.wind_height_m, e.wind_exponent);
+    for (const auto& [code, c] : f.scar_of_cover)
+        out += fmt::format(";{}|{}|{}|{}|{}|{}", code, c.amplitude1_K, c.time_constant1_s, c.amplitude2_K,
+                           c.time_constant2_s, c.floor_K);
+    if (!f.scar_of_cover.empty() && s.inputs.cover) out += text(s.inputs.cover->raster);
     out += flames_text(s) + text(s.inputs.terrain) + text(s.inputs.heat_flux);
     if (s.inputs.arrival) out += text(*s.inputs.arrival);
     if (s.inputs.wind) {

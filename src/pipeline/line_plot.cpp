@@ -15,7 +15,7 @@
 namespace pyroscene::pipeline {
 namespace {
 
-constexpr int kLeft = 92, kRight = 24, kTop = 38, kBottom = 58, kFont = cv::FONT_HERSHEY_SIMPLEX;
+constexpr int kLeft = 92, kRight = 24, kTop = 38, kBottom = 58, kColourBar = 62, kFont = cv::FONT_HERSHEY_SIMPLEX;
 const cv::Scalar kInk(30, 30, 30), kPaper(255, 255, 255), kGridLine(225, 225, 225);
 /// Blue, orange, green, red, violet, brown (BGR), told apart by colour-blind readers too.
 const cv::Scalar kColours[] = {{178, 114, 0}, {0, 94, 213}, {115, 158, 0}, {40, 40, 190}, {167, 121, 204}, {60, 90, 120}};
@@ -43,6 +43,10 @@ struct Scale {
 
 Scale scale_of(const LinePlot& plot, const PlotAxis& axis, std::vector<double> PlotSeries::*member) {
     Scale scale{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(), axis.logarithmic};
+    if (plot.image) {
+        const bool is_x = &axis == &plot.x;
+        return {is_x ? plot.image->x_low : plot.image->y_low, is_x ? plot.image->x_high : plot.image->y_high, false};
+    }
     for (const auto& series : plot.series)
         for (const double v : series.*member)
             if (scale.shows(v)) {
@@ -85,14 +89,14 @@ void draw_axes(cv::Mat& canvas, const LinePlot& plot, const Frame& f) {
     const auto& box = f.box;
     for (const double v : axis_ticks(f.x.low, f.x.high, f.x.logarithmic, box.width / 110)) {
         const int px = box.x + static_cast<int>(std::lround(f.x.position(v) * box.width));
-        cv::line(canvas, {px, box.y}, {px, box.y + box.height}, kGridLine);
+        if (!plot.image) cv::line(canvas, {px, box.y}, {px, box.y + box.height}, kGridLine);
         cv::line(canvas, {px, box.y + box.height}, {px, box.y + box.height + 5}, kInk);
         const auto words = fmt::format("{:.6g}", v);
         text(canvas, words, {px - text_size(words, kSmall).width / 2, box.y + box.height + 20}, kSmall);
     }
     for (const double v : axis_ticks(f.y.low, f.y.high, f.y.logarithmic, std::max(3, box.height / 60))) {
         const int py = box.y + static_cast<int>(std::lround((1.0 - f.y.position(v)) * box.height));
-        cv::line(canvas, {box.x, py}, {box.x + box.width, py}, kGridLine);
+        if (!plot.image) cv::line(canvas, {box.x, py}, {box.x + box.width, py}, kGridLine);
         cv::line(canvas, {box.x - 5, py}, {box.x, py}, kInk);
         const auto words = fmt::format("{:.6g}", v);
         text(canvas, words, {box.x - 9 - text_size(words, kSmall).width, py + 5}, kSmall);
@@ -106,6 +110,39 @@ void draw_axes(cv::Mat& canvas, const LinePlot& plot, const Frame& f) {
     cv::rotate(upright, turned, cv::ROTATE_90_COUNTERCLOCKWISE);
     const int top = std::clamp(box.y + (box.height - turned.rows) / 2, 0, std::max(0, canvas.rows - turned.rows));
     if (turned.rows <= canvas.rows) turned.copyTo(canvas(cv::Rect(6, top, turned.cols, turned.rows)));
+}
+
+/// Fills the frame with the raster and puts the colour bar to its right.
+void draw_image(cv::Mat& canvas, const PlotImage& image, const cv::Rect& box) {
+    float largest = 0.0F;
+    for (const float v : image.values) largest = std::max(largest, std::isfinite(v) ? v : 0.0F);
+    const double high = largest > 0.0F ? std::pow(10.0, std::ceil(std::log10(static_cast<double>(largest)))) : 1.0,
+                 low = 1e-3 * high;
+    cv::Mat grey(image.rows, image.cols, CV_8UC1), colour, blank;
+    for (int row = 0; row < image.rows; ++row)
+        for (int col = 0; col < image.cols; ++col) {
+            const double v = image.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.cols) +
+                                          static_cast<std::size_t>(col)];
+            const double p = v > 0.0 ? std::clamp(std::log(v / low) / std::log(high / low), 0.0, 1.0) : -1.0;
+            grey.at<unsigned char>(row, col) = static_cast<unsigned char>(p < 0.0 ? 0 : 20 + std::lround(215.0 * p));
+        }
+    cv::resize(grey, grey, box.size(), 0.0, 0.0, cv::INTER_NEAREST);
+    cv::applyColorMap(grey, colour, cv::COLORMAP_INFERNO);
+    cv::compare(grey, 0, blank, cv::CMP_EQ);
+    colour.setTo(kPaper, blank);
+    colour.copyTo(canvas(box));
+
+    constexpr int kWidth = 14;
+    cv::Mat ramp(box.height, kWidth, CV_8UC1), bar;
+    for (int row = 0; row < box.height; ++row)
+        ramp.row(row).setTo(static_cast<unsigned char>(235 - 215 * row / std::max(1, box.height - 1)));
+    cv::applyColorMap(ramp, bar, cv::COLORMAP_INFERNO);
+    const int left = box.x + box.width + 12;
+    bar.copyTo(canvas(cv::Rect(left, box.y, kWidth, box.height)));
+    for (int decade = 0; decade <= 3; ++decade)
+        text(canvas, fmt::format("{:g}", high * std::pow(10.0, decade - 3)),
+             {left + kWidth + 5, box.y + box.height - box.height * decade / 3 + 5}, 0.4);
+    text(canvas, image.unit, {box.x + box.width + 60 - text_size(image.unit, 0.42).width, box.y + box.height + 44}, 0.42);
 }
 
 void draw_series(cv::Mat& canvas, const PlotSeries& series, const Frame& f, const cv::Scalar& colour) {
@@ -160,9 +197,10 @@ cv::Mat draw(const LinePlot& plot) {
             throw input_error("plot '" + plot.title + "'", fmt::format("series '{}' has {} x and {} y values", series.label,
                                                                        series.x.size(), series.y.size()));
     cv::Mat canvas(plot.height_px, plot.width_px, CV_8UC3, kPaper);
-    const Frame frame{{kLeft, kTop, plot.width_px - kLeft - kRight, plot.height_px - kTop - kBottom},
-                      scale_of(plot, plot.x, &PlotSeries::x),
-                      scale_of(plot, plot.y, &PlotSeries::y)};
+    const auto [width, height] = plot_area(plot, plot.image.has_value());
+    const Frame frame{
+        {kLeft, kTop, width, height}, scale_of(plot, plot.x, &PlotSeries::x), scale_of(plot, plot.y, &PlotSeries::y)};
+    if (plot.image) draw_image(canvas, *plot.image, frame.box);
     draw_axes(canvas, plot, frame);
     for (std::size_t i = 0; i < plot.series.size(); ++i)
         draw_series(canvas, plot.series[i], frame, kColours[i % std::size(kColours)]);
@@ -195,6 +233,10 @@ std::vector<double> axis_ticks(double low, double high, bool logarithmic, int ab
     for (double k = std::ceil(low / step - kRounding); k * step <= high + kRounding * step; k += 1.0)
         ticks.push_back(k == 0.0 ? 0.0 : k * step);
     return ticks;
+}
+
+std::array<int, 2> plot_area(const LinePlot& plot, bool with_colour_bar) {
+    return {plot.width_px - kLeft - kRight - (with_colour_bar ? kColourBar : 0), plot.height_px - kTop - kBottom};
 }
 
 void write_line_plots(const std::filesystem::path& path, std::span<const LinePlot> plots) {

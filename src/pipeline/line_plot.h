@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -22,17 +23,30 @@ struct PlotAxis {
     std::optional<double> lowest, highest;
 };
 
+/// A raster drawn inside the frame, below the curves, with a colour bar: logarithmic over up to three decades below its largest
+/// value. Values that are not above 0 stay white.
+struct PlotImage {
+    int cols = 0, rows = 0;
+    std::vector<float> values;  ///< [row][col], row 0 at the top
+    double x_low = 0.0, x_high = 1.0, y_low = 0.0, y_high = 1.0;
+    std::string unit;
+};
+
 /// One diagram with frame, grid, ticks at round numbers and legend. Texts are ASCII: the font has no other letters.
 struct LinePlot {
     std::string title;
     PlotAxis x, y;
     std::vector<PlotSeries> series;
     int width_px = 900, height_px = 480;
+    std::optional<PlotImage> image = {};
 };
 
 /// Round tick positions of an axis from low to high: 1, 2 or 5 times a power of ten, about `about` of them; on a logarithmic
 /// axis powers of ten, with 2 and 5 between them where there are few.
 std::vector<double> axis_ticks(double low, double high, bool logarithmic, int about);
+
+/// Width and height in pixels that a diagram leaves inside its frame.
+std::array<int, 2> plot_area(const LinePlot& plot, bool with_colour_bar);
 
 /// PNG with the diagrams one below the other. Throws an input error when a diagram has no value to show or x and y differ in
 /// number, a runtime error naming the file when it cannot be written.

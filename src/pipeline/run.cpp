@@ -9,9 +9,11 @@
 #include <tbb/global_control.h>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "gis/raster_output.h"
 #include "pipeline/energy.h"
 #include "pipeline/fingerprint.h"
+#include "pipeline/fronts.h"
 #include "pipeline/products_phase.h"
 #include "pipeline/render_phase.h"
 #include "pipeline/run_report_file.h"
@@ -105,6 +107,21 @@ void warn_of_flat_flames(const Session& s) {
             "air; physics: default measures its angle from the ground");
 }
 
+/// Lists the connected fronts beside the state. The report tells them for every frame of a short series, else for those that
+/// are looked at, so that it stays small.
+void write_fronts(Session& s, std::size_t i, const fire::FireState& state, const Raster<float>& heat_flux_W_m2) {
+    constexpr std::size_t kShortSeries = 100;
+    const auto path = state_path(s.options.output, state.time_s);
+    const auto fronts = find_fronts(state, heat_flux_W_m2);
+    write_text_file(fronts_path(path), fronts_csv(fronts));
+    const auto& frames = s.inputs.frames;
+    const auto& wanted = s.scenario.acquisitions;
+    const bool seen = std::any_of(wanted.begin(), wanted.end(), [&](const Acquisition& a) {
+        return a.time_s >= frames[i].time_s && (i + 1 == frames.size() || a.time_s < frames[i + 1].time_s);
+    });
+    if (frames.size() <= kShortSeries || seen) record_fronts(s.report, fronts, path.stem().string());
+}
+
 void prepare_phase(Session& s) {
     const PhaseTimer timer(s.report, "prepare");
     warn_of_sparse_frames(s);
@@ -128,6 +145,7 @@ void prepare_phase(Session& s) {
         const auto frame = load_frame(s.scenario, s.inputs, i);
         auto state = fire::advance(previous ? &*previous : nullptr, frame, s.scenario.fire);
         count_flames(s.report, state.flame_counts);
+        write_fronts(s, i, state, frame.heat_flux_W_m2);
         write_state(path_of(i), state, print_of(i), s.utc(frame.time_s));
         previous = std::move(state);
         s.report.count("states_made", 1);
@@ -141,7 +159,9 @@ fire::FireState state_for(const Session& s, const Acquisition& acquisition) {
     const auto path = state_path(s.options.output, s.inputs.frames[frame].time_s);
     if (!is_current(path, s.fingerprints.state(s.inputs.frames[frame].time_s), RunOptions{}))
         throw input_error(path.string(), "no current fire state for this scenario; run 'pyroscene prepare' first");
-    return read_state(path, s.inputs.grid, s.inputs.arrival_time_s);
+    auto state = read_state(path, s.inputs.grid, s.inputs.arrival_time_s);
+    state.scar_class = s.inputs.scar_class;
+    return state;
 }
 
 AcquisitionFiles files_of(const Session& s, const Acquisition& acquisition, const std::string& group,

@@ -33,16 +33,20 @@ void write_run_report(const scenario::Scenario& scenario, const RunOptions& opti
     json["threads"] = options.threads;
     json["timings_s"] = report.timings_s();
     json["counters"] = report.counters();
-    nlohmann::ordered_json values = nlohmann::ordered_json::object(), energy = nlohmann::ordered_json::object();
+    nlohmann::ordered_json values = nlohmann::ordered_json::object(), energy = nlohmann::ordered_json::object(),
+                           fronts = nlohmann::ordered_json::object();
     for (const auto& [name, value] : report.values()) {
-        // energy/<acquisition>/<quantity> becomes a nested object.
+        // energy/<acquisition>/<quantity> and fronts/<frame>/<quantity> become nested objects.
         const auto first = name.find('/'), last = name.rfind('/');
         if (name.starts_with("energy/") && last > first)
             energy[name.substr(first + 1, last - first - 1)][name.substr(last + 1)] = value;
+        else if (name.starts_with("fronts/") && last > first)
+            fronts[name.substr(first + 1, last - first - 1)][name.substr(last + 1)] = value;
         else
             values[name] = value;
     }
     json["energy_budget"] = energy;
+    if (!fronts.empty()) json["fronts"] = fronts;
     if (!values.empty()) json["values"] = values;
     json["peak_memory_MB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
     json["warnings"] = report.warnings();

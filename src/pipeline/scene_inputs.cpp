@@ -80,6 +80,20 @@ WindPair wind_pair(const RasterSource& source, std::size_t frame_count, std::siz
     return pairs[found];
 }
 
+/// Which row of scar.by_cover holds in each cell; no values when there is no such table.
+Raster<std::uint8_t> scar_classes(const Scenario& scenario, const MapGrid& grid) {
+    const auto& scars = scenario.fire.scar_of_cover;
+    if (scars.empty() || !scenario.inputs.cover) return {};
+    std::map<int, std::uint8_t> class_of_code;
+    for (const auto& scar : scars) class_of_code.emplace(scar.code, static_cast<std::uint8_t>(class_of_code.size() + 1));
+    const auto& source = scenario.inputs.cover->raster;
+    const auto codes = gis::read_classes(source.files.front(), first_band(source), grid, -9999);
+    Raster<std::uint8_t> classes(grid, "scar class", "1");
+    for (std::size_t i = 0; i < codes.values.size(); ++i)
+        if (const auto it = class_of_code.find(codes.values[i]); it != class_of_code.end()) classes.values[i] = it->second;
+    return classes;
+}
+
 Raster<std::uint8_t> cover_materials(const Scenario& scenario, const MapGrid& grid, std::vector<std::string>& names) {
     names = {scenario.surface.unburned};
     Raster<std::uint8_t> cover(grid, "cover", "1", std::uint8_t{0});
@@ -150,6 +164,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     in.mean_height_m = sum / static_cast<double>(count);
     in.frames = heat_flux_frames(scenario.inputs.heat_flux);
     in.cover = cover_materials(scenario, in.grid, in.cover_names);
+    in.scar_class = scar_classes(scenario, in.grid);
     if (const auto& arrival = scenario.inputs.arrival)
         in.arrival_time_s = gis::read_band(
             {arrival->files.front(), first_band(*arrival), gis::Resampling::Nearest, "arrival time", "s"}, in.grid);
@@ -167,6 +182,7 @@ fire::FrameInputs load_frame(const Scenario& scenario, const SceneInputs& inputs
         gis::read_band({source.file, source.band, gis::Resampling::Conserve, "heat flux", "W m-2"}, inputs.grid);
     out.arrival_time_s = inputs.arrival_time_s;
     out.front = &inputs.front;
+    out.scar_class = inputs.scar_class;
     const auto& wind = scenario.inputs.wind;
     if (wind && wind->raster) {
         const auto pair = wind_pair(*wind->raster, inputs.frames.size(), frame, source.time_s);

@@ -30,6 +30,7 @@ struct SceneInputs {
     std::vector<std::string> cover_names;  ///< what the indices mean (surface spectrum names)
     std::optional<Raster<float>> arrival_time_s;
     fire::FrontInputs front;          ///< what the scenario's flame relations read
+    Raster<std::uint8_t> scar_class;  ///< see fire::FrameInputs::scar_class
     std::vector<FrameSource> frames;  ///< ascending in time
     Vec3 origin_m;                    ///< map x, y of the scene frame's origin (centre of the grid), z = 0
     gis::Geodetic centre;             ///< of the map, at mean terrain height

@@ -40,19 +40,6 @@ fire::EmberParameters read_embers(const config::Node& node) {
     return embers;
 }
 
-fire::ScarCooling read_scar(const config::Node& node) {
-    fire::ScarCooling scar;
-    constexpr Range kAmplitude = Range::between(0.0, 3000.0), kTimeConstant{0.0, 1e7, true};
-    check_method(node, "model", "double_exponential");
-    scar.amplitude1_K = node.number("amplitude1_K", scar.amplitude1_K, kAmplitude);
-    scar.time_constant1_s = node.number("time_constant1_s", scar.time_constant1_s, kTimeConstant);
-    scar.amplitude2_K = node.number("amplitude2_K", scar.amplitude2_K, kAmplitude);
-    scar.time_constant2_s = node.number("time_constant2_s", scar.time_constant2_s, kTimeConstant);
-    scar.floor_K = node.number("floor_K", scar.floor_K, kTemperature_K);
-    node.finish();
-    return scar;
-}
-
 /// Names of the shipped surface spectra: the columns of the table after the wavelength.
 std::vector<std::string> surface_names() {
     auto columns = read_csv(data_folder() / "optical" / "surface_reflectance.csv").columns;
@@ -62,7 +49,7 @@ std::vector<std::string> surface_names() {
 
 }  // namespace
 
-fire::FireParameters read_fire(const config::Node& node, const config::Node& scar) {
+fire::FireParameters read_fire(const config::Node& node) {
     fire::FireParameters p;
     p.front_threshold_W_m2 = node.number("front_threshold_W_m2", p.front_threshold_W_m2, Range{0.0, 1e8, true});
     p.front_temperature_K = node.number("front_temperature_K", p.front_temperature_K, kTemperature_K);
@@ -74,7 +61,6 @@ fire::FireParameters read_fire(const config::Node& node, const config::Node& sca
     read_flame_relations(node, p);
     read_air(node.child("air"), p);
     node.finish();
-    p.scar = read_scar(scar);
     return p;
 }
 

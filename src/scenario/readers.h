@@ -21,11 +21,15 @@ inline constexpr config::Range kTemperature_K = config::Range::between(200.0, 35
 
 /// \param folder  of the scenario file; relative paths start there
 Inputs read_inputs(const config::Node& node, const std::filesystem::path& folder);
-fire::FireParameters read_fire(const config::Node& fire, const config::Node& scar);
+fire::FireParameters read_fire(const config::Node& node);
 /// Flame height, tilt, fireline intensity and front depth: the part of `fire` that read_flames.cpp reads.
 void read_flame_relations(const config::Node& fire, fire::FireParameters& parameters);
 /// Reports inputs that the chosen flame relations need and do not have, and the reverse.
 void check_flame_inputs(const config::Node& root, const Scenario& scenario);
+
+/// \param has_cover the inputs say the class of each cell, which `by_cover` needs
+void read_scar(const config::Node& node, const std::filesystem::path& folder, bool has_cover,
+               fire::FireParameters& parameters);
 FlameSettings read_flame(const config::Node& node);
 PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire);
 /// \param folder  of the scenario file

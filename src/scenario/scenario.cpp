@@ -95,7 +95,8 @@ Scenario load(const fs::path& path) {
     read_head(root, s);
     s.inputs = read_inputs(root.required_child("inputs"), folder);
     s.physics = read_physics(root);
-    s.fire = read_fire(root.child("fire"), root.child("scar"));
+    s.fire = read_fire(root.child("fire"));
+    read_scar(root.child("scar"), folder, s.inputs.cover.has_value(), s.fire);
     s.fire.physics = s.physics;
     s.fire.seed = s.seed;
     check_flame_inputs(root, s);

@@ -223,12 +223,13 @@ constexpr const char* kSchema = R"json({
       "type": "object",
       "additionalProperties": false,
       "properties": {
-        "model": {"enum": ["double_exponential"], "default": "double_exponential"},
+        "model": {"enum": ["double_exponential", "single_exponential"], "default": "double_exponential"},
         "amplitude1_K": {"type": "number", "minimum": 0, "maximum": 3000, "default": 578.97},
         "time_constant1_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "default": 74.88},
         "amplitude2_K": {"type": "number", "minimum": 0, "maximum": 3000, "default": 197.50},
         "time_constant2_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "default": 247.72},
-        "floor_K": {"$ref": "#/$defs/temperature_K", "default": 306.34}
+        "floor_K": {"$ref": "#/$defs/temperature_K", "default": 306.34},
+        "by_cover": {"type": "string", "description": "CSV: curve of each class of inputs.cover"}
       }
     },
     "surface": {

@@ -26,7 +26,7 @@ TEST(Cli, ExitCodes) {
 
 TEST(Cli, EveryVerbHasHelpWithAnExample) {
     for (const std::string verb :
-         {"run", "prepare", "render", "products", "check", "sensors", "calc", "fit-scar", "import-atmosphere"}) {
+         {"run", "prepare", "render", "products", "check", "sensors", "calc", "fit-scar", "export", "import-atmosphere"}) {
         const auto help = pyroscene_cli(verb + " --help");
         EXPECT_EQ(help.exit_code, 0) << verb;
         EXPECT_NE(help.output.find("Example: pyroscene " + verb), std::string::npos) << verb << "\n" << help.output;
@@ -43,6 +43,11 @@ TEST(Calc, KnownValues) {
     EXPECT_NEAR(value("flame-height --heat_flux_W_m2 5.92e6"), 2.96, 1e-9);
     EXPECT_NEAR(value("flame-tilt --wind_m_s 3 --fireline_intensity_kW_m 500"), 44.79912, 1e-4);
     EXPECT_NEAR(value("scar-temperature --time_s 0"), 809.66 + 273.15, 1e-6);
+    EXPECT_NEAR(value("scar-temperature --time_s 600"), 50.90711 + 273.15, 1e-5);
+    EXPECT_NEAR(value("scar-temperature --time_s 100 --model single_exponential"), 315.79561 + 273.15, 1e-4);
+    EXPECT_NEAR(value("scar-temperature --time_s 60 --model single_exponential --amplitude1_K 800 --floor_K 273.15"),
+                439.0493 + 273.15, 1e-4);
+    EXPECT_EQ(pyroscene_cli("calc scar-temperature --time_s 60 --model cubic").exit_code, 3);
     EXPECT_NEAR(value("atmosphere --wavelength_um 0.55 --altitude_m 4200"), 0.724, 0.002);
 }
 

@@ -195,5 +195,23 @@ TEST(SurfaceAt, RefusesThePastAndNoCells) {
     EXPECT_THROW(surface_at(state, 10.0, kDefaults, 0), Error);
 }
 
+// Two burnt cells of different cover, 100 s after arrival: 800 degC e^-1 above its floor in one, eq 4.18 in the other.
+TEST(SurfaceField, EachClassOfCoverCoolsByItsOwnCurve) {
+    FireParameters p;
+    p.scar_of_cover = {{7, {.amplitude1_K = 800.0, .time_constant1_s = 100.0, .amplitude2_K = 0.0, .floor_K = 320.0}}};
+    auto first = test::frame_with_arrival(0.0, {5e4F, 5e4F}, {0.0F, 0.0F});
+    first.scar_class = Raster<std::uint8_t>(first.heat_flux_W_m2.grid, "scar class", "1");
+    first.scar_class.values = {1, 0};
+    auto later = test::frame_with_arrival(60.0, {0.0F, 0.0F}, {0.0F, 0.0F});
+    later.scar_class = first.scar_class;
+    const auto start = advance(nullptr, first, p);
+    const auto state = advance(&start, later, p);
+    EXPECT_NEAR(state.surface_temperature_K.at(0, 0), 320.0 + 800.0 * 0.5488116361, 1e-3);
+    EXPECT_NEAR(state.surface_temperature_K.at(0, 1), 448.0209 + 273.15, 1e-3);
+    const auto surface = surface_at(state, 100.0, p, 2);
+    EXPECT_NEAR(surface.base_temperature_K[0], 320.0 + 800.0 * 0.3678794412, 1e-3);
+    EXPECT_NEAR(surface.base_temperature_K[3], 317.3808 + 273.15, 1e-3);
+}
+
 }  // namespace
 }  // namespace pyroscene::fire

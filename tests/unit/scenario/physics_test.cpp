@@ -48,6 +48,15 @@ scar: {model: double_exponential, amplitude1_K: 500, time_constant1_s: 70, ampli
     EXPECT_EQ(s.fire.scar.floor_K, 300.0);
 }
 
+TEST(Physics, SingleExponentialHasItsOwnDefaults) {
+    const ScenarioFolder folder;
+    const auto scar = folder.load(shortest("scar: {model: single_exponential, time_constant1_s: 120}\n")).fire.scar;
+    EXPECT_EQ(scar.amplitude1_K, 766.0);
+    EXPECT_EQ(scar.time_constant1_s, 120.0);
+    EXPECT_EQ(scar.amplitude2_K, 0.0);
+    EXPECT_EQ(scar.floor_K, 307.15);
+}
+
 // `physics: thesis` chooses formulas; numbers stay what the scenario or the defaults say (table in docs/scenario.md).
 TEST(Physics, ThesisChangesNoNumber) {
     const ScenarioFolder folder;
