@@ -28,8 +28,8 @@ struct Fronts {
 };
 
 /// Connected fronts of a state. Length: a band of length L and width w has area L w and, through the centres of its rim cells
-/// (OpenCV's contours, holes too), an outline of 2 (L - 1) + 2 (w - 1) cells; L is the larger root. Right to a cell for bands of
-/// any direction, straight, bent or closed.
+/// (OpenCV's contours, holes too), an outline of 2 (L - 1) + 2 (w - 1) cells; L is the larger root. Right to a few per
+/// cent for bands of any direction, straight, bent or closed.
 /// \param heat_flux_W_m2 of the same frame, on the same grid
 Fronts find_fronts(const fire::FireState& state, const Raster<float>& heat_flux_W_m2);
 

@@ -52,7 +52,7 @@ TEST(Fronts, LengthHoldsForAnyShape) {
         return std::abs(x * c + y * s) <= 40.0 && std::abs(y * c - x * s) <= 4.0;
     });
     ASSERT_EQ(band.fronts.size(), 1U);
-    EXPECT_NEAR(band.fronts[0].length_m / 20.0, 80.0, 5.0);  // stepped outlines read up to 5 % long
+    EXPECT_NEAR(band.fronts[0].length_m / 20.0, 81.0, 2.5);
 
     const auto ring = fronts_of(120, 120, [](int col, int row) {
         const double r = std::hypot(col - 60.0, row - 60.0);
