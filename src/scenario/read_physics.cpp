@@ -14,11 +14,6 @@ namespace {
 
 using config::Range;
 
-/// A method with one name so far: any other word is told.
-void check_method(const config::Node& node, const char* key, const char* name) {
-    [[maybe_unused]] const std::string found = node.choice(key, name, {name});
-}
-
 void read_air(const config::Node& node, fire::FireParameters& p) {
     p.air_density_kg_m3 = node.number("density_kg_m3", p.air_density_kg_m3, Range::between(0.1, 2.0));
     p.air_heat_capacity_J_kg_K =

@@ -26,7 +26,6 @@ fire::FireParameters read_fire(const config::Node& node);
 void read_flame_relations(const config::Node& fire, fire::FireParameters& parameters);
 /// Reports inputs that the chosen flame relations need and do not have, and the reverse.
 void check_flame_inputs(const config::Node& root, const Scenario& scenario);
-
 /// \param has_cover the inputs say the class of each cell, which `by_cover` needs
 void read_scar(const config::Node& node, const std::filesystem::path& folder, bool has_cover,
                fire::FireParameters& parameters);
