@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "pipeline/atmosphere_deck.h"
 #include "pipeline/import_atmosphere.h"
 
 namespace pyroscene::cli {
@@ -48,7 +49,7 @@ void add_import(CLI::App& app, const bool& quiet, const std::string& command_lin
     number("--ground-elevation-km", g.ground_elevation_km, "above sea level", -1.0, 9.0);
     number("--visibility-km", g.visibility_km, "of the aerosol", 0.1, 1000.0);
     number("--day-of-year", g.day_of_year, "of the sun's distance in the runs", 0.0, 366.0);
-    sub->add_option("--unit", options->unit, "W_cm2_cm-1, W_cm2_um, W_cm2_nm, uW_cm2_nm, mW_m2_nm, W_m2_um");
+    sub->add_option("--unit", options->unit, "W_cm2_cm-1, W_cm2_um, W_cm2_nm, uW_cm2_nm, mW_m2_nm, W_m2_nm, W_m2_um");
     sub->add_option("--columns", options->request.uvspec_columns,
                     "columns of a uvspec table: lambda edir edn eup uu zout ...")
         ->delimiter(',');
@@ -66,10 +67,31 @@ void add_import(CLI::App& app, const bool& quiet, const std::string& command_lin
     });
 }
 
+void add_deck(CLI::App& app, const bool& quiet) {
+    struct Options {
+        std::string scenario, acquisition, code = "modtran6", output;
+    };
+    auto options = std::make_shared<Options>();
+    auto* sub =
+        app.add_subcommand("atmosphere-deck", "input files with which MODTRAN or libRadtran computes a scenario's air");
+    sub->add_option("SCENARIO", options->scenario, "scenario file (YAML)")->required();
+    sub->add_option("--acquisition", options->acquisition, "whose sensor, height, view angles and sun")->required();
+    sub->add_option("--for", options->code, "modtran6 (JSON), modtran5 (tape5) or libradtran")->capture_default_str();
+    sub->add_option("-o,--output", options->output, "folder for the files")->required();
+    sub->footer(
+        "Example: pyroscene atmosphere-deck scenarios/lolo_peak/scenario.yaml --acquisition wasp --for modtran6 -o deck");
+    sub->callback([options, &quiet] {
+        const auto scene = scenario::load(options->scenario);
+        const auto files = pipeline::write_atmosphere_deck(scene, options->acquisition, options->code, options->output);
+        if (!quiet) fmt::print("{}: {} files\n", options->output, files.size());
+    });
+}
+
 }  // namespace
 
 void add_atmosphere_commands(CLI::App& app, const bool& quiet, const std::string& command_line) {
     add_import(app, quiet, command_line);
+    add_deck(app, quiet);
 }
 
 }  // namespace pyroscene::cli

@@ -17,7 +17,7 @@ namespace pyroscene::cli {
 namespace {
 
 struct CommandLine {
-    std::string name, csv, output;
+    std::string name, csv, output, plot;
     std::map<std::string, std::string> values;
 };
 
@@ -43,6 +43,8 @@ CommandLine parse(const std::vector<std::string>& words) {
             line.csv = value;
         else if (key == "output")
             line.output = value;
+        else if (key == "plot")
+            line.plot = value;
         else
             line.values[key] = value;
     }
@@ -123,6 +125,13 @@ void run_calc(const std::vector<std::string>& words) {
             throw std::invalid_argument(
                 fmt::format("calc {}: no option --{}; there are {}", line.name, key, fmt::join(names, ", ")));
         }
+    if (!line.plot.empty()) {
+        if (!calculation.plot) throw std::invalid_argument(fmt::format("calc {} has no --plot", line.name));
+        auto values = line.values;
+        values.emplace("wavelength_um", "1");  // a plot shows all of them
+        calculation.plot(complete(calculation, std::move(values), "calc " + line.name), line.plot);
+        if (!line.values.contains("wavelength_um") && line.csv.empty()) return;
+    }
     std::string text;
     if (!line.csv.empty()) {
         text = compute_table(calculation, line);

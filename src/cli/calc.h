@@ -33,6 +33,8 @@ struct Calculation {
     std::vector<CalcOption> options;
     std::vector<std::string> results;
     std::function<std::vector<double>(const Arguments&)> compute;
+    /// Draws the spectrum into a PNG file (--plot), over all wavelengths. Empty: has none.
+    std::function<void(const Arguments&, const std::string& file)> plot = {};
 };
 
 /// All of them; a new one is one row (src/cli/calculations.cpp).

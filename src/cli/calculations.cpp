@@ -11,6 +11,7 @@
 #include "cli/flame_calculations.h"
 #include "fire/scar.h"
 #include "gis/netcdf_input.h"
+#include "pipeline/line_plot.h"
 #include "radiometry/atmosphere.h"
 #include "radiometry/flame_optics.h"
 #include "radiometry/planck.h"
@@ -56,7 +57,7 @@ const radiometry::AtmosphereSet& atmosphere_set(const std::string& model, double
     return known->second;
 }
 
-std::vector<double> atmosphere(const Arguments& a) {
+radiometry::AtmospherePoint atmosphere_point(const Arguments& a) {
     radiometry::AtmospherePoint point;
     auto& conditions = point.conditions;
     conditions.sensor_altitude_agl_m = a.number("altitude_m");
@@ -65,10 +66,44 @@ std::vector<double> atmosphere(const Arguments& a) {
     conditions.sun_zenith_rad = a.number("sun_zenith_deg") * kDegree_rad;
     point.view_zenith_rad = a.number("view_zenith_deg") * kDegree_rad;
     point.relative_azimuth_rad = a.number("relative_azimuth_deg") * kDegree_rad;
-    const auto& set = atmosphere_set(a.text("model"), conditions.visibility_km, conditions.ground_elevation_m);
-    const auto t = radiometry::evaluate_at(set, point, a.number("wavelength_um"));
+    return point;
+}
+
+const radiometry::AtmosphereSet& atmosphere_set(const Arguments& a) {
+    return atmosphere_set(a.text("model"), a.number("visibility_km"), a.number("ground_elevation_m"));
+}
+
+std::vector<double> atmosphere(const Arguments& a) {
+    const auto t = radiometry::evaluate_at(atmosphere_set(a), atmosphere_point(a), a.number("wavelength_um"));
     return {t.transmittance[0], t.path_thermal[0], t.path_solar[0],      t.direct_normal[0],
             t.diffuse[0],       t.thermal_sky[0],  t.spherical_albedo[0]};
+}
+
+void plot_atmosphere(const Arguments& a, const std::string& file) {
+    const auto t = radiometry::evaluate(atmosphere_set(a), atmosphere_point(a));
+    const pipeline::PlotAxis wavelength{"wavelength / um", true, {}, {}};
+    const auto diagram = [&](const char* label, bool logarithmic, double lowest, std::vector<pipeline::PlotSeries> series) {
+        pipeline::LinePlot plot;
+        plot.x = wavelength;
+        plot.y = {label, logarithmic, lowest, {}};
+        plot.series = std::move(series);
+        return plot;
+    };
+    const auto curve = [&](const char* name, const std::vector<double>& y) {
+        return pipeline::PlotSeries{name, t.wavelength_um, y, false};
+    };
+    std::vector<pipeline::LinePlot> plots{
+        diagram("1", false, 0.0,
+                {curve("transmittance", t.transmittance), curve("spherical albedo", t.spherical_albedo),
+                 curve("diffuse transmittance", t.diffuse_transmittance)}),
+        diagram("W m-2 sr-1 um-1", true, 1e-4, {curve("path thermal", t.path_thermal), curve("path solar", t.path_solar)}),
+        diagram("W m-2 um-1", true, 1e-3,
+                {curve("direct sun, normal", t.direct_normal), curve("sky, sunlit", t.diffuse),
+                 curve("sky, thermal", t.thermal_sky)})};
+    plots.front().title =
+        fmt::format("{}, {} km visibility, sensor {} m, view {} deg, sun {} deg", a.text("model"), a.text("visibility_km"),
+                    a.text("altitude_m"), a.text("view_zenith_deg"), a.text("sun_zenith_deg"));
+    pipeline::write_line_plots(file, plots);
 }
 
 /// A homogeneous flame before a cold black background, at one exact wavelength.
@@ -169,7 +204,8 @@ const std::vector<Calculation>& calculations() {
           {"ground_elevation_m", "0"}},
          {"transmittance", "path_thermal_W_m2_sr_um", "path_solar_W_m2_sr_um", "direct_irradiance_W_m2_um",
           "diffuse_irradiance_W_m2_um", "thermal_irradiance_W_m2_um", "spherical_albedo"},
-         atmosphere},
+         atmosphere,
+         plot_atmosphere},
         {"flame-emissivity",
          "emissivity and radiance of a homogeneous flame (soot, hot gas, K and Na lines) at one vacuum wavelength",
          {{"wavelength_um", {}},

@@ -10,10 +10,10 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "gis/netcdf_input.h"
+#include "pipeline/ground_reflectance.h"
 #include "pipeline/plume_scene.h"
 #include "radiometry/atmosphere.h"
 #include "radiometry/soot.h"
-#include "radiometry/surfaces.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -52,6 +52,17 @@ radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, double groun
         source.model, source.visibility_km, ground_elevation_m, [](const std::string& file, const std::string& variable) {
             return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
         });
+}
+
+/// A table of the user's may be for few wavelengths only, and beyond them it says nothing.
+void check_table_covers(const std::filesystem::path& file, const radiometry::AtmosphereTable& table,
+                        const radiometry::SpectralGrid& grid) {
+    const auto& lambda = table.wavelength_um;
+    const double lower = *std::min_element(grid.lambda_um.begin(), grid.lambda_um.end());
+    const double upper = *std::max_element(grid.lambda_um.begin(), grid.lambda_um.end());
+    if (lambda.front() > lower * 1.005 || lambda.back() < upper * 0.995)
+        throw input_error(file.string(), fmt::format("covers {:.4g} to {:.4g} um, the bands need {:.4g} to {:.4g} um",
+                                                     lambda.front(), lambda.back(), lower, upper));
 }
 
 }  // namespace
@@ -153,21 +164,11 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
             optics.grey ? *scenario.flame.grey_absorption_per_m
                         : radiometry::soot_absorption_per_m(soot, lambda_um, fire.gas.soot_volume_fraction)));
 
-    const auto library = radiometry::load_surfaces(data_folder() / "optical" / "surface_reflectance.csv");
     auto names = in.cover_names;
+    optics.reflectance = ground_reflectance(scenario, names, out.grid);
     names.push_back(scenario.surface.burned);
     optics.material_count = static_cast<int>(names.size());
     optics.burnt_material = optics.material_count - 1;
-    for (const auto& name : names) {
-        const auto& reflectance = library.reflectance[static_cast<std::size_t>(library.index_of(name))];
-        for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
-            const double lower = out.grid.cell_lower_um[i], upper = out.grid.cell_upper_um[i];
-            const double value = scenario.surface.emissivity ? 1.0 - *scenario.surface.emissivity
-                                 : upper > lower             ? mean_over(reflectance, lower, upper)
-                                                             : reflectance.at(optics.lambda_um[i]);
-            optics.reflectance.push_back(static_cast<float>(value));
-        }
-    }
     if (scenario.atmosphere.model == "none" && !scenario.atmosphere.file) {
         out.atmosphere = radiometry::vacuum(n);
         return out;
@@ -186,6 +187,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
     conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
     conditions.sun_distance_AU = sun.distance_AU;
     const auto set = load_atmosphere(scenario, conditions.ground_elevation_m);
+    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, set.tables.front(), out.grid);
     out.atmosphere = radiometry::make_view_atmosphere(set, conditions, out.grid, albedo);
     for (const auto& warning : radiometry::atmosphere_warnings(set, conditions)) report.warn("atmosphere: " + warning);
     return out;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "pipeline/acquisition.h"
+#include "pipeline/ground_reflectance.h"
 #include "pipeline/plume_scene.h"
 #include "pipeline/run.h"
 
@@ -54,6 +55,7 @@ std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const 
         for (const int b : wanted_bands(a, sensor, id))
             responses.push_back(sensor.bands[static_cast<std::size_t>(b)].response);
         const auto grid = radiometry::make_spectral_grid(responses);
+        (void)ground_reflectance(s, in.cover_names, grid);  // for what is wrong with the user's spectra
         const bool point =
             sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;
         const double rays_per_pixel = point ? 1.0 : s.render.samples_per_axis * s.render.samples_per_axis;

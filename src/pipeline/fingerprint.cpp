@@ -70,6 +70,8 @@ std::string scene_text(const Scenario& s) {
                        flame.parameters.profile.tip_K, gas.x_H2O, gas.x_CO2, gas.x_CO, gas.x_CH4, gas.x_O2,
                        gas.potassium_ppm, gas.pressure_Pa, flame.parameters.profile.air_K);
     out += fmt::format("{}|{}|{};", s.surface.unburned, s.surface.burned, s.surface.emissivity.value_or(-1.0));
+    out += fmt::format("{}|{};", s.surface.ash, s.surface.burn_severity);
+    for (const auto& [name, file] : s.surface.spectra) out += name + sha256_of_file(file) + ";";
     if (s.inputs.cover) out += text(s.inputs.cover->raster) + s.inputs.cover->table;
     out += fmt::format("{}|{}|{}|{};", s.atmosphere.model, s.atmosphere.visibility_km,
                        s.atmosphere.ground_elevation_m.value_or(-1e9),

@@ -1,27 +1,24 @@
 #include "radiometry/assemble_atmosphere.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "radiometry/atmosphere_assembly.h"
 #include "radiometry/planck.h"
 
 namespace pyroscene::radiometry {
-namespace {
 
-using Array = std::vector<double>;
-using Member = Array AtmosphereRun::*;
-using Filter = std::function<bool(const AtmosphereRun&)>;
+using Array = Assembly::Array;
+using Filter = Assembly::Filter;
 
-constexpr double kSmallTau = 1e-4;  // below it reflected light says nothing about the ground
+namespace assembly {
 
-bool same(const std::optional<double>& a, double b) { return a && std::abs(*a - b) <= 1e-4 * std::max(1.0, std::abs(b)); }
+bool same(const std::optional<double>& a, double b) { return a && std::abs(*a - b) <= 1e-3 * std::max(1.0, std::abs(b)); }
 
 /// Distinct values in ascending order.
 Array distinct(const std::vector<AtmosphereRun>& runs, const Filter& wanted, std::optional<double> RunGeometry::*of) {
@@ -36,12 +33,27 @@ Array distinct(const std::vector<AtmosphereRun>& runs, const Filter& wanted, std
 }
 
 double at_wavelength(const AtmosphereRun& run, const Array& values, double lambda_um) {
-    return Spectrum{Quantity::Dimensionless, run.wavelength_um, values}.at(lambda_um);
+    const auto& x = run.wavelength_um;
+    const auto next = std::clamp<std::ptrdiff_t>(std::upper_bound(x.begin(), x.end(), lambda_um) - x.begin(), 1,
+                                                 static_cast<std::ptrdiff_t>(x.size()) - 1);
+    const auto high = static_cast<std::size_t>(next);
+    const double f = std::clamp((lambda_um - x[high - 1]) / (x[high] - x[high - 1]), 0.0, 1.0);
+    return values[high - 1] + f * (values[high] - values[high - 1]);
 }
 
 bool covers(const AtmosphereRun& run, double lambda_um) {
     return lambda_um >= run.wavelength_um.front() * (1.0 - 1e-9) && lambda_um <= run.wavelength_um.back() * (1.0 + 1e-9);
 }
+
+void append(std::vector<float>& to, const Array& values) {
+    for (const double v : values) to.push_back(static_cast<float>(v));
+}
+
+}  // namespace assembly
+
+using namespace assembly;
+
+namespace {
 
 /// Wavelengths of the first run, and of the others where they reach farther.
 Array joined_wavelengths(const std::vector<AtmosphereRun>& runs) {
@@ -59,37 +71,12 @@ Array joined_wavelengths(const std::vector<AtmosphereRun>& runs) {
     return all;
 }
 
-/// Everything the runs say, and the nodes on which the table needs it.
-class Assembly {
-public:
-    Assembly(std::vector<AtmosphereRun> runs, bool without_sun) : runs_(std::move(runs)), without_sun_(without_sun) {
-        normalise();
-        make_axes();
-    }
-    AssembledAtmosphere make();
+}  // namespace
 
-private:
-    void normalise();
-    void make_axes();
-    void fill_paths(AtmosphereTable& t);
-    void fill_ground(AtmosphereTable& t);
-    void extend_view(AtmosphereTable& t) const;
-    void note(std::string text) { notes_.push_back(std::move(text)); }
-
-    [[nodiscard]] static bool is_path(const AtmosphereRun& r) { return !r.looks_up && !r.transmittance.empty(); }
-    /// Values of a term on the table's wavelengths, from the first wanted run that covers each; `missing` elsewhere.
-    [[nodiscard]] Array collect(Member term, const Filter& wanted, double missing) const;
-    [[nodiscard]] bool any(Member term, const Filter& wanted) const;
-    [[nodiscard]] Filter at_node(double altitude_km, double view_deg) const;
-    [[nodiscard]] Filter under_sun(double sun_deg) const;
-    [[nodiscard]] Array two_temperatures(const Filter& node, Array* path_thermal) const;
-    [[nodiscard]] Array ground_irradiance(Member reflected, double albedo, double sun_deg) const;
-
-    std::vector<AtmosphereRun> runs_;
-    bool without_sun_;
-    std::vector<std::string> notes_;
-    Array lambda_, altitude_km_, view_deg_, sun_deg_, azimuth_deg_;
-};
+Assembly::Assembly(std::vector<AtmosphereRun> runs, bool without_sun) : runs_(std::move(runs)), without_sun_(without_sun) {
+    normalise();
+    make_axes();
+}
 
 /// Brings solar terms to 1 AU.
 void Assembly::normalise() {
@@ -108,9 +95,7 @@ void Assembly::normalise() {
     }
 }
 
-void Assembly::make_axes() {
-    lambda_ = joined_wavelengths(runs_);
-    const auto down = [](const AtmosphereRun& r) { return !r.looks_up; };
+void Assembly::make_path_axes() {
     for (const auto& run : runs_) {
         if (!is_path(run)) continue;
         const auto need = [&](const std::optional<double>& value, const char* name) {
@@ -124,22 +109,26 @@ void Assembly::make_axes() {
     if (altitude_km_.empty() || view_deg_.empty())
         throw input_error(runs_.front().source,
                           "no run looks from a sensor down to the ground; the path below the sensor is what a table needs");
-    if (without_sun_) {
-        sun_deg_ = {0.0};
-        azimuth_deg_ = {0.0};
-        return;
-    }
-    sun_deg_ = distinct(runs_, down, &RunGeometry::sun_zenith_deg);
-    azimuth_deg_ = distinct(
-        runs_, [](const AtmosphereRun& r) { return !r.looks_up && !r.path_solar.empty(); },
-        &RunGeometry::relative_azimuth_deg);
+}
+
+void Assembly::make_axes() {
+    lambda_ = joined_wavelengths(runs_);
+    make_path_axes();
+    sun_deg_ = azimuth_deg_ = {0.0};
+    if (without_sun_) return;
+    sun_deg_ = distinct(runs_, looks_down, &RunGeometry::sun_zenith_deg);
     if (sun_deg_.empty())
         throw input_error(runs_.front().source, "the sun zenith angle is unknown; give it, or import without the sun");
-    if (azimuth_deg_.empty()) azimuth_deg_ = {0.0};
-    if (azimuth_deg_.size() > 1 && azimuth_deg_ != Array{0.0, 90.0, 180.0})
-        throw input_error("import-atmosphere",
-                          fmt::format("relative azimuths {} deg; a table has 0, 90 and 180, or a single one",
-                                      fmt::join(azimuth_deg_, ", ")));
+    const auto scatters = [](const AtmosphereRun& r) { return looks_down(r) && !r.path_solar.empty(); };
+    const auto found = distinct(runs_, scatters, &RunGeometry::relative_azimuth_deg);
+    if (found.size() == 3 && same(0.0, found[0]) && same(90.0, found[1]) && same(180.0, found[2]))
+        azimuth_deg_ = {0.0, 90.0, 180.0};
+    else if (found.size() == 1)
+        azimuth_deg_ = found;
+    else if (!found.empty())
+        throw input_error(
+            "import-atmosphere",
+            fmt::format("relative azimuths {} deg; a table has 0, 90 and 180, or a single one", fmt::join(found, ", ")));
 }
 
 bool Assembly::any(Member term, const Filter& wanted) const {
@@ -194,62 +183,70 @@ Array Assembly::two_temperatures(const Filter& node, Array* path_thermal) const 
     return tau;
 }
 
-void append(std::vector<float>& to, const Array& values) {
-    for (const double v : values) to.push_back(static_cast<float>(v));
-}
-
 void Assembly::fill_paths(AtmosphereTable& t) {
     for (const double altitude_km : altitude_km_)
-        for (const double view_deg : view_deg_) {
-            const auto node = at_node(altitude_km, view_deg);
-            const auto where = fmt::format("sensor {:.6g} km above ground, view zenith {:.4g} deg", altitude_km, view_deg);
-            // Terms that depend on the albedo are taken where it is smallest: nothing of the surroundings is in them then.
-            const Array albedos = distinct(runs_, node, &RunGeometry::albedo);
-            const auto dark = [&](const AtmosphereRun& r) {
-                return node(r) && (albedos.empty() || !r.geometry.albedo || same(r.geometry.albedo, albedos.front()));
+        for (const double view_deg : view_deg_) append_path_node(t, altitude_km, view_deg);
+}
+
+namespace {
+
+std::string node_name(double altitude_km, double view_deg) {
+    return fmt::format("sensor {:.6g} km above ground, view zenith {:.4g} deg", altitude_km, view_deg);
+}
+
+}  // namespace
+
+void Assembly::append_path_node(AtmosphereTable& t, double altitude_km, double view_deg) {
+    const auto node = at_node(altitude_km, view_deg);
+    const auto where = node_name(altitude_km, view_deg);
+    // Terms that depend on the albedo are taken where it is smallest: nothing of the surroundings is in them then.
+    const Array albedos = distinct(runs_, node, &RunGeometry::albedo);
+    const auto dark = [&](const AtmosphereRun& r) {
+        return node(r) && (albedos.empty() || !r.geometry.albedo || same(r.geometry.albedo, albedos.front()));
+    };
+    Array thermal_of_pair;
+    const Array tau_of_pair = two_temperatures(node, &thermal_of_pair);
+    Array tau = collect(&AtmosphereRun::transmittance, node, std::nan(""));
+    Array thermal = collect(&AtmosphereRun::path_thermal, dark, std::nan(""));
+    bool missing = false;
+    for (std::size_t l = 0; l < lambda_.size(); ++l) {
+        if (std::isnan(thermal[l])) thermal[l] = thermal_of_pair[l];
+        if (!std::isnan(tau_of_pair[l])) tau[l] = tau_of_pair[l];
+        if (std::isnan(tau[l]))
+            throw input_error(where, fmt::format("no run gives the transmittance at {:.6g} um", lambda_[l]));
+        missing = missing || (std::isnan(thermal[l]) && lambda_[l] > 2.5);
+        if (std::isnan(thermal[l])) thermal[l] = 0.0;
+    }
+    if (missing) note(fmt::format("{}: no path thermal radiance beyond 2.5 um; it is 0", where));
+    append(t.transmittance, tau);
+    append(t.path_thermal_radiance, thermal);
+    append_path_solar(t, altitude_km, view_deg, dark);
+}
+
+void Assembly::append_path_solar(AtmosphereTable& t, double altitude_km, double view_deg, const Filter& dark) {
+    for (const double sun_deg : sun_deg_)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double azimuth_deg = azimuth_deg_.size() == 3 ? azimuth_deg_[k] : azimuth_deg_[0];
+            const bool any_azimuth = azimuth_deg_.size() == 1 || sun_deg < 1e-6 || view_deg < 1e-6;
+            const auto lit = [&](const AtmosphereRun& r) {
+                return dark(r) && same(r.geometry.sun_zenith_deg, sun_deg) &&
+                       (any_azimuth || same(r.geometry.relative_azimuth_deg, azimuth_deg));
             };
-            Array thermal2;
-            const Array tau2 = two_temperatures(node, &thermal2);
-            Array tau = collect(&AtmosphereRun::transmittance, node, std::nan(""));
-            Array thermal = collect(&AtmosphereRun::path_thermal, dark, std::nan(""));
-            std::size_t dark_samples = 0;
-            for (std::size_t l = 0; l < lambda_.size(); ++l) {
-                if (std::isnan(thermal[l])) thermal[l] = thermal2[l];
-                if (!std::isnan(thermal2[l])) tau[l] = tau2[l];
-                if (std::isnan(tau[l]))
-                    throw input_error(where, fmt::format("no run gives the transmittance at {:.6g} um", lambda_[l]));
-                if (!std::isnan(thermal[l])) continue;
-                thermal[l] = 0.0;
-                dark_samples += lambda_[l] > 2.5 ? 1 : 0;
-            }
-            if (dark_samples > 0) note(fmt::format("{}: no path thermal radiance beyond 2.5 um; it is 0", where));
-            append(t.transmittance, tau);
-            append(t.path_thermal_radiance, thermal);
-            const Array E = collect(&AtmosphereRun::ground_reflected, node, 0.0);
-            for (const double sun_deg : sun_deg_)
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const double azimuth_deg = azimuth_deg_.size() == 3 ? azimuth_deg_[k] : azimuth_deg_[0];
-                    const auto lit = [&](const AtmosphereRun& r) {
-                        return dark(r) && same(r.geometry.sun_zenith_deg, sun_deg) &&
-                               (azimuth_deg_.size() == 1 || sun_deg < 1e-6 || view_deg < 1e-6 ||
-                                same(r.geometry.relative_azimuth_deg, azimuth_deg));
-                    };
-                    if (!without_sun_ && !any(&AtmosphereRun::path_solar, lit))
-                        throw input_error(where,
-                                          fmt::format("no run gives the path solar radiance for sun zenith {:.4g} deg, "
-                                                      "relative azimuth {:.4g} deg",
-                                                      sun_deg, azimuth_deg));
-                    append(t.path_solar_radiance,
-                           without_sun_ ? Array(lambda_.size(), 0.0) : collect(&AtmosphereRun::path_solar, lit, 0.0));
-                }
+            if (!without_sun_ && !any(&AtmosphereRun::path_solar, lit))
+                throw input_error(node_name(altitude_km, view_deg),
+                                  fmt::format("no run gives the path solar radiance for sun zenith {:.4g} deg, relative "
+                                              "azimuth {:.4g} deg",
+                                              sun_deg, azimuth_deg));
+            append(t.path_solar_radiance,
+                   without_sun_ ? Array(lambda_.size(), 0.0) : collect(&AtmosphereRun::path_solar, lit, 0.0));
         }
 }
 
-/// pi L / (A tau) at the first node that has it: what the ground receives when its albedo is A.
 Array Assembly::ground_irradiance(Member reflected, double albedo, double sun_deg) const {
     Array out(lambda_.size(), std::nan(""));
     for (const auto& run : runs_) {
-        if (!is_path(run) || (run.*reflected).empty() || !same(run.geometry.albedo, albedo)) continue;
+        if (run.looks_up || run.transmittance.empty() || (run.*reflected).empty() || !same(run.geometry.albedo, albedo))
+            continue;
         if (sun_deg >= 0.0 ? !same(run.geometry.sun_zenith_deg, sun_deg) : run.includes_sun) continue;
         for (std::size_t l = 0; l < lambda_.size(); ++l) {
             if (!std::isnan(out[l]) || !covers(run, lambda_[l])) continue;
@@ -258,198 +255,6 @@ Array Assembly::ground_irradiance(Member reflected, double albedo, double sun_de
         }
     }
     return out;
-}
-
-void Assembly::fill_ground(AtmosphereTable& t) {
-    const std::size_t n = lambda_.size();
-    const auto down = [](const AtmosphereRun& r) { return !r.looks_up; };
-    const auto everything = [](const AtmosphereRun&) { return true; };
-    Array albedos = distinct(runs_, down, &RunGeometry::albedo);
-    std::erase_if(albedos, [](double A) { return !(A > 1e-6); });
-    const auto is_dark = [](const AtmosphereRun& r) { return !r.geometry.albedo || *r.geometry.albedo <= 1e-6; };
-
-    // Spherical albedo and sky: from runs that name them, from irradiances at two albedos, or none.
-    Array S = collect(&AtmosphereRun::spherical_albedo, down, std::nan(""));
-    const double sun0 = sun_deg_.front();
-    const auto ratio_S = [](double E1, double A1, double E2, double A2) {
-        const double r = E1 / E2;
-        return std::clamp((1.0 - r) / (A2 - r * A1), 0.0, 1.0);
-    };
-    bool have_S = any(&AtmosphereRun::spherical_albedo, down);
-    if (!have_S && albedos.size() > 1 && !without_sun_) {
-        const Array E1 = ground_irradiance(&AtmosphereRun::ground_reflected, albedos.front(), sun0);
-        const Array E2 = ground_irradiance(&AtmosphereRun::ground_reflected, albedos.back(), sun0);
-        for (std::size_t l = 0; l < n; ++l)
-            if (E1[l] > 0.0 && E2[l] > 0.0) S[l] = ratio_S(E1[l], albedos.front(), E2[l], albedos.back());
-        have_S = std::any_of(S.begin(), S.end(), [](double v) { return !std::isnan(v); });
-    }
-    if (!have_S && !without_sun_) {  // irradiances of the ground that name themselves, over dark and bright ground
-        const auto bright = [&](const AtmosphereRun& r) { return down(r) && !is_dark(r) && under_sun(sun0)(r); };
-        const auto dark = [&](const AtmosphereRun& r) { return down(r) && is_dark(r) && under_sun(sun0)(r); };
-        if (any(&AtmosphereRun::diffuse, bright) && any(&AtmosphereRun::diffuse, dark) && !albedos.empty()) {
-            const double cosine = std::cos(sun0 * kDegree_rad);
-            const Array b = collect(&AtmosphereRun::diffuse, bright, 0.0), d = collect(&AtmosphereRun::diffuse, dark, 0.0);
-            const Array direct = collect(&AtmosphereRun::direct_normal, dark, 0.0);
-            for (std::size_t l = 0; l < n; ++l) {
-                const double E0 = direct[l] * cosine + d[l], EA = direct[l] * cosine + b[l];
-                if (E0 > 0.0 && EA > 0.0) S[l] = ratio_S(E0, 0.0, EA, albedos.front());
-            }
-            have_S = true;
-        }
-    }
-    for (double& v : S) v = std::isnan(v) ? 0.0 : v;
-    if (!have_S) note("no spherical albedo (it needs runs with two albedos); light does not bounce between ground and sky");
-    append(t.spherical_albedo, S);
-
-    Array sky = collect(&AtmosphereRun::thermal_sky, everything, std::nan(""));
-    if (!any(&AtmosphereRun::thermal_sky, everything)) {
-        for (const double A : albedos) {
-            const Array E = ground_irradiance(&AtmosphereRun::ground_reflected, A, -1.0);
-            for (std::size_t l = 0; l < n; ++l)
-                if (std::isnan(sky[l]) && !std::isnan(E[l])) sky[l] = E[l] * (1.0 - A * S[l]);
-        }
-        // Looking up from the ground: pi times the radiance nearest to the diffuse angle, 53 deg.
-        const AtmosphereRun* best = nullptr;
-        for (const auto& run : runs_)
-            if (run.looks_up && !run.path_thermal.empty() && run.geometry.view_zenith_deg &&
-                (best == nullptr ||
-                 std::abs(*run.geometry.view_zenith_deg - 53.0) < std::abs(*best->geometry.view_zenith_deg - 53.0)))
-                best = &run;
-        if (best != nullptr) {
-            bool used = false;
-            for (std::size_t l = 0; l < n; ++l)
-                if (std::isnan(sky[l]) && covers(*best, lambda_[l])) {
-                    sky[l] = kPi * at_wavelength(*best, best->path_thermal, lambda_[l]);
-                    used = true;
-                }
-            if (used)
-                note(
-                    fmt::format("thermal sky: pi times the radiance at {:.4g} deg zenith", *best->geometry.view_zenith_deg));
-        }
-    }
-    // One run with sun and reflecting ground holds both skies; the sun's part ends where the thermal one takes over.
-    constexpr double kThermalFrom_um = 3.5;
-    bool split = false, missing_sky = false;
-    const double A0 = albedos.empty() ? 0.0 : albedos.back();
-    const Array mixed = albedos.empty() || without_sun_ ? Array(n, std::nan(""))
-                                                        : ground_irradiance(&AtmosphereRun::ground_reflected, A0, sun0);
-    const Array mixed_direct = albedos.empty() || without_sun_
-                                   ? Array(n, std::nan(""))
-                                   : ground_irradiance(&AtmosphereRun::direct_reflected, A0, sun0);
-    std::vector<bool> sky_from_mixed(n, false);
-    for (std::size_t l = 0; l < n; ++l) {
-        if (!std::isnan(sky[l])) continue;
-        if (lambda_[l] >= kThermalFrom_um && !std::isnan(mixed[l]) && !std::isnan(mixed_direct[l])) {
-            sky[l] = std::max(0.0, mixed[l] * (1.0 - A0 * S[l]) - mixed_direct[l]);
-            sky_from_mixed[l] = split = true;
-        } else {
-            missing_sky = missing_sky || lambda_[l] > 2.5;
-            sky[l] = 0.0;
-        }
-    }
-    if (split) note("no run without a sun: reflected sky light beyond 3.5 um is taken as thermal, below as sunlight");
-    if (missing_sky) note("no thermal irradiance of the sky beyond 2.5 um; it is 0 there");
-    append(t.thermal_sky_irradiance, sky);
-
-    Array toa = collect(&AtmosphereRun::toa_irradiance, everything, 0.0);
-    std::vector<Array> direct_of(sun_deg_.size()), product_of(sun_deg_.size()), E0_of(sun_deg_.size());
-    for (std::size_t s = 0; s < sun_deg_.size(); ++s) {
-        Array direct(n, 0.0), diffuse(n, 0.0), product(n, std::nan(""));
-        if (!without_sun_) {
-            const auto lit = under_sun(sun_deg_[s]);
-            const auto lit_dark = [&](const AtmosphereRun& r) { return lit(r) && is_dark(r); };
-            const double cosine = std::cos(sun_deg_[s] * kDegree_rad);
-            const bool named = any(&AtmosphereRun::direct_normal, lit);
-            direct = collect(&AtmosphereRun::direct_normal, lit, 0.0);
-            for (const double A : albedos) {
-                const Array E = ground_irradiance(&AtmosphereRun::direct_reflected, A, sun_deg_[s]);
-                for (std::size_t l = 0; l < n; ++l)
-                    if (std::isnan(product[l]) && !std::isnan(E[l])) product[l] = E[l] / cosine;
-            }
-            const bool reflected = std::any_of(product.begin(), product.end(), [](double v) { return !std::isnan(v); });
-            if (!named && !reflected)
-                throw input_error(
-                    "import-atmosphere",
-                    fmt::format("no run gives the sun at the ground for sun zenith {:.4g} deg: a run with ground "
-                                "albedo above 0, or one of the direct irradiance; or import without the sun",
-                                sun_deg_[s]));
-            if (!named)
-                for (std::size_t l = 0; l < n; ++l) direct[l] = std::isnan(product[l]) ? 0.0 : product[l];
-            diffuse = collect(&AtmosphereRun::diffuse, any(&AtmosphereRun::diffuse, lit_dark) ? Filter(lit_dark) : lit, 0.0);
-            if (!any(&AtmosphereRun::diffuse, lit)) {
-                Array E = albedos.empty() ? Array(n, std::nan(""))
-                                          : ground_irradiance(&AtmosphereRun::ground_reflected, A0, sun_deg_[s]);
-                for (std::size_t l = 0; l < n; ++l) {
-                    const double beam = std::isnan(product[l]) ? direct[l] * cosine : product[l] * cosine;
-                    const double thermal = sky_from_mixed[l] || lambda_[l] >= kThermalFrom_um ? sky[l] : 0.0;
-                    diffuse[l] = std::isnan(E[l]) ? 0.0 : std::max(0.0, E[l] * (1.0 - A0 * S[l]) - beam - thermal);
-                }
-                if (s == 0 && albedos.empty()) note("no diffuse sky light (it needs a run with ground albedo above 0)");
-            }
-        }
-        append(t.direct_solar_irradiance, direct);
-        append(t.diffuse_solar_irradiance, diffuse);
-        direct_of[s] = direct;
-        product_of[s] = product;
-        E0_of[s] = diffuse;
-    }
-    for (std::size_t l = 0; l < n; ++l) {
-        float strongest = 0.0F;
-        for (const auto& direct : direct_of) strongest = std::max(strongest, static_cast<float>(direct[l]));
-        t.toa_solar_irradiance.push_back(std::max(static_cast<float>(toa[l]), strongest));
-    }
-
-    // View terms that need the ground's irradiance: correlation and upward diffuse transmittance.
-    bool have_td = any(&AtmosphereRun::diffuse_transmittance, down), have_C = any(&AtmosphereRun::correlation, down);
-    for (const double altitude_km : altitude_km_)
-        for (const double view_deg : view_deg_) {
-            const auto node = at_node(altitude_km, view_deg);
-            Array td = collect(&AtmosphereRun::diffuse_transmittance, node, std::nan(""));
-            for (const double A : albedos) {
-                const auto bright = [&](const AtmosphereRun& r) {
-                    return node(r) && same(r.geometry.albedo, A) && same(r.geometry.sun_zenith_deg, sun0);
-                };
-                const auto dark = [&](const AtmosphereRun& r) {
-                    return node(r) && is_dark(r) && r.geometry.albedo && same(r.geometry.sun_zenith_deg, sun0);
-                };
-                if (without_sun_ || !any(&AtmosphereRun::path_solar, bright) || !any(&AtmosphereRun::path_solar, dark))
-                    continue;
-                const Array with = collect(&AtmosphereRun::path_solar, bright, 0.0);
-                const Array without = collect(&AtmosphereRun::path_solar, dark, 0.0);
-                for (std::size_t l = 0; l < n; ++l) {
-                    const double E = (direct_of[0][l] * std::cos(sun0 * kDegree_rad) + E0_of[0][l]) / (1.0 - A * S[l]);
-                    if (std::isnan(td[l]) && E > 1e-3) {
-                        td[l] = std::clamp(kPi * (with[l] - without[l]) / (A * E), 0.0, 1.0);
-                        have_td = true;
-                    }
-                }
-            }
-            for (double& v : td) v = std::isnan(v) ? 0.0 : v;
-            append(t.diffuse_upward_transmittance, td);
-            const Array tau = collect(&AtmosphereRun::transmittance, node, 0.0);
-            for (std::size_t s = 0; s < sun_deg_.size(); ++s) {
-                const auto lit = [&](const AtmosphereRun& r) {
-                    return node(r) && same(r.geometry.sun_zenith_deg, sun_deg_[s]);
-                };
-                Array C = collect(&AtmosphereRun::correlation, lit, std::nan(""));
-                const Array two_way = collect(&AtmosphereRun::two_way_irradiance, lit, std::nan(""));
-                for (std::size_t l = 0; l < n; ++l) {
-                    const double beam = direct_of[s][l];
-                    const double bent =
-                        !std::isnan(two_way[l]) && tau[l] > kSmallTau ? two_way[l] / tau[l] : product_of[s][l];
-                    if (std::isnan(C[l]) && !std::isnan(bent) && beam > 1e-6 && bent > 0.0) {
-                        C[l] = std::clamp(bent / beam, 1.0, 100.0);
-                        have_C = have_C || std::abs(C[l] - 1.0) > 1e-3;
-                    }
-                    if (std::isnan(C[l])) C[l] = 1.0;
-                }
-                append(t.solar_path_correlation, C);
-            }
-        }
-    if (!have_td && !without_sun_)
-        note("no upward diffuse transmittance (it needs albedo 0 and another one at the same node); adjacency is 0");
-    if (!have_C && !without_sun_)
-        note("the correlation of sun and view path is inside the direct irradiance, or unknown (1)");
 }
 
 /// Inserts nadir and 65 deg around a single view angle.
@@ -509,8 +314,6 @@ AssembledAtmosphere Assembly::make() {
     check(t);
     return {std::move(t), std::move(notes_)};
 }
-
-}  // namespace
 
 AssembledAtmosphere assemble_atmosphere(std::vector<AtmosphereRun> runs, bool without_sun) {
     return Assembly(std::move(runs), without_sun).make();

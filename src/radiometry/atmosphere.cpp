@@ -117,6 +117,14 @@ std::vector<std::string> atmosphere_warnings(const AtmosphereSet& set, const Atm
             fmt::format("sun zenith {:.2f} deg is beyond the tables; {:.0f} deg is used, its light scaled "
                         "with the cosine",
                         c.sun_zenith_rad / kDegree_rad, limits.sun_zenith_rad / kDegree_rad));
+    constexpr double kTop_m = 80e3;  // above it nothing is left that matters
+    const double highest_m = std::min(limits.altitude_m, kTop_m);
+    if (limits.altitude_m < kTop_m && c.sensor_altitude_agl_m > 1.02 * highest_m)
+        clamped("sensor altitude", c.sensor_altitude_agl_m, highest_m, "m");
+    const double first_sun_rad = set.tables.front().solar_zenith_deg.front() * kDegree_rad;
+    const bool has_sun = set.tables.front().direct_solar_irradiance.front() > 0.0F;
+    if (c.sun_zenith_rad < first_sun_rad - 1.0 * kDegree_rad && has_sun)
+        clamped("sun zenith", c.sun_zenith_rad / kDegree_rad, first_sun_rad / kDegree_rad, "deg");
     if (c.sensor_altitude_agl_m < 0.0) clamped("sensor altitude", c.sensor_altitude_agl_m, 0.0, "m");
     const double visibility = std::clamp(c.visibility_km, limits.visibility_km[0], limits.visibility_km[1]);
     if (set.tables.size() > 1 && visibility != c.visibility_km) clamped("visibility", c.visibility_km, visibility, "km");

@@ -19,11 +19,12 @@ struct UnitName {
     SpectralUnit unit;
     const char* name;
 };
-constexpr std::array<UnitName, 6> kUnits{{{SpectralUnit::PerWavenumber, "W_cm2_cm-1"},
+constexpr std::array<UnitName, 7> kUnits{{{SpectralUnit::PerWavenumber, "W_cm2_cm-1"},
                                           {SpectralUnit::PerMicrometre, "W_cm2_um"},
                                           {SpectralUnit::PerNanometre, "W_cm2_nm"},
                                           {SpectralUnit::MicrowattPerNanometre, "uW_cm2_nm"},
                                           {SpectralUnit::MilliwattPerNanometreM2, "mW_m2_nm"},
+                                          {SpectralUnit::WattPerNanometreM2, "W_m2_nm"},
                                           {SpectralUnit::Product, "W_m2_um"}}};
 
 constexpr double kEarthRadius_km = 6371.23;
@@ -139,6 +140,8 @@ double to_product_unit(SpectralUnit unit, double lambda_um) noexcept {
             return 1e7;
         case SpectralUnit::MicrowattPerNanometre:
             return 10.0;
+        case SpectralUnit::WattPerNanometreM2:
+            return 1e3;
         case SpectralUnit::MilliwattPerNanometreM2:
         case SpectralUnit::Product:
             return 1.0;
@@ -286,8 +289,14 @@ void set_geometry(const ModtranGeometry& from, RunGeometry& to, bool& looks_up) 
     if (from.day_of_year > 0) to.day_of_year = from.day_of_year;
     if (from.with_sun && (from.iparm == 2 || from.iparm == 12)) {
         to.sun_zenith_deg = from.parm2;
-        const double azimuth_deg = std::abs(std::remainder(from.parm1, 360.0));
-        to.relative_azimuth_deg = azimuth_deg;
+        if (from.iparm != 2) return;  // 12: both angles at H2, where manuals differ on what the azimuth counts from
+        const double azimuth_rad = std::abs(std::remainder(from.parm1, 360.0)) * kDegree_rad;
+        to.relative_azimuth_deg = azimuth_rad / kDegree_rad;
+        if (looks_up || !to.view_zenith_deg) return;
+        // 2: at the sensor, whose vertical leans from that of the target by the angle between them at the Earth's centre.
+        const double lean = (*to.view_zenith_deg - (180.0 - from.zenith_deg)) * kDegree_rad, sun = from.parm2 * kDegree_rad;
+        const double cosine = std::cos(lean) * std::cos(sun) + std::sin(lean) * std::sin(sun) * std::cos(azimuth_rad);
+        to.sun_zenith_deg = std::acos(std::clamp(cosine, -1.0, 1.0)) / kDegree_rad;
     }
 }
 

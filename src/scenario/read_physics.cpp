@@ -116,12 +116,21 @@ FlameSettings read_flame(const config::Node& node) {
     return flame;
 }
 
-SurfaceSettings read_surface(const config::Node& node) {
+SurfaceSettings read_surface(const config::Node& node, const fs::path& folder) {
     SurfaceSettings surface;
     if (!node.present()) return surface;
-    const auto names = surface_names();
+    auto names = surface_names();
+    if (const auto spectra = node.child("spectra"); spectra.present() && !spectra.is_map())
+        spectra.report("expected names with files: {my_grass: my_grass.csv}");
+    else
+        for (const auto& name : spectra.keys()) {
+            surface.spectra[name] = read_file_name(spectra.child(name), folder);
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
     surface.unburned = node.choice("unburned", surface.unburned, names);
     surface.burned = node.choice("burned", surface.burned, names);
+    surface.ash = node.choice("ash", surface.ash, names);
+    surface.burn_severity = node.number("burn_severity", surface.burn_severity, Range::between(0.0, 1.0));
     surface.emissivity = node.optional_number("emissivity", Range{0.0, 1.0, true});
     node.finish();
     return surface;

@@ -33,7 +33,7 @@ FlameSettings read_flame(const config::Node& node);
 PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire);
 /// \param folder  of the scenario file
 PlumeSource read_plume_source(const config::Node& node, const std::filesystem::path& folder);
-SurfaceSettings read_surface(const config::Node& node);
+SurfaceSettings read_surface(const config::Node& node, const std::filesystem::path& folder);
 AtmosphereSource read_atmosphere(const config::Node& node, const std::filesystem::path& folder);
 RenderSettings read_render(const config::Node& node);
 std::vector<Acquisition> read_acquisitions(const config::Node& node, const std::filesystem::path& folder);

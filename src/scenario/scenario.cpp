@@ -103,7 +103,7 @@ Scenario load(const fs::path& path) {
     s.flame = read_flame(root.child("flame"));
     s.flame.parameters.profile.air_K = s.fire.air_temperature_K;
     s.plume = read_plume(root.child("plume"), s.inputs, s.fire);
-    s.surface = read_surface(root.child("surface"));
+    s.surface = read_surface(root.child("surface"), folder);
     s.atmosphere = read_atmosphere(root.child("atmosphere"), folder);
     s.render = read_render(root.child("render"));
     s.acquisitions = read_acquisitions(root.required_child("acquisitions"), folder);

@@ -71,7 +71,10 @@ struct AtmosphereSource {
 struct SurfaceSettings {
     std::string unburned = "grass_dry";  ///< surface spectrum where no cover raster says otherwise
     std::string burned = "char_black";
-    std::optional<double> emissivity;  ///< one grey emissivity for everything (furnace, thesis)
+    std::string ash = "ash_gray";                          ///< what burns white: mixed into burnt ground
+    double burn_severity = 0.0;                            ///< share of ash in burnt ground, 0..1
+    std::map<std::string, std::filesystem::path> spectra;  ///< of the user's, by name
+    std::optional<double> emissivity;                      ///< one grey emissivity for everything (furnace, thesis)
 };
 
 struct FlameSettings {

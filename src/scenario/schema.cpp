@@ -238,6 +238,11 @@ constexpr const char* kSchema = R"json({
       "properties": {
         "unburned": {"$ref": "#/$defs/surface", "default": "grass_dry"},
         "burned": {"$ref": "#/$defs/surface", "default": "char_black"},
+        "ash": {"$ref": "#/$defs/surface", "default": "ash_gray"},
+        "burn_severity": {"type": "number", "minimum": 0, "maximum": 1, "default": 0,
+          "description": "share of ash in burnt ground"},
+        "spectra": {"type": "object", "additionalProperties": {"type": "string"},
+          "description": "reflectance spectra by name: CSV or ENVI .sli"},
         "emissivity": {"type": "number", "exclusiveMinimum": 0, "maximum": 1, "description": "grey, for all ground"}
       }
     },
@@ -326,7 +331,7 @@ constexpr const char* kSchema = R"json({
     "band": {"type": "integer", "minimum": 1, "maximum": 65535, "description": "counted from 1"},
     "times_s": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},
       "description": "s since start of each frame, ascending; default: band metadata time_s"},
-    "surface": {"enum": ["grass_green", "grass_dry", "grass_cured_20pct_green", "chaparral", "conifer", "litter_needles",
+    "surface": {"type": "string", "description": "one of these, or a name of surface.spectra", "examples": ["grass_green", "grass_dry", "grass_cured_20pct_green", "chaparral", "conifer", "litter_needles",
       "soil_bare", "soil_dark", "soil_light", "char_black", "ash_gray", "ash_white", "rock_gravel", "asphalt", "water"]},
     "static": {
       "type": "object",

@@ -36,6 +36,15 @@ double angle_at_sensor_deg(const SimulatedRun& run) {
     return 180.0 - std::asin(sine) / kDegree_rad;
 }
 
+/// MODTRAN counts the sun's angles at the observer (IPARM 2); its vertical leans from that of the target.
+double sun_at_sensor_deg(const SimulatedRun& run) {
+    const double lean = (run.view_zenith_deg - (180.0 - angle_at_sensor_deg(run))) * kDegree_rad;
+    const double sun = run.sun_zenith_deg * kDegree_rad;
+    return std::acos(std::cos(lean) * std::cos(sun) -
+                     std::sin(lean) * std::sin(sun) * std::cos(run.relative_azimuth_deg * kDegree_rad)) /
+           kDegree_rad;
+}
+
 }  // namespace
 
 SimulatedRun::Columns SimulatedRun::at(std::size_t l) const {
@@ -83,7 +92,7 @@ std::string tape7_text(const SimulatedRun& run) {
                         0.0, angle_at_sensor_deg(run), 0.0, 0.0, 0.0);
     text += "    2    2    0    0\n";
     text += fmt::format("{:10.5f}{:10.5f}   0.00000   0.00000   0.00000   0.00000   0.00000   0.00000\n",
-                        run.relative_azimuth_deg, run.sun_zenith_deg);
+                        run.relative_azimuth_deg, sun_at_sensor_deg(run));
     text += "     640.0   28700.0      10.0      20.0NW              \n    0\n";
     text +=
         "    FREQ  TOT_TRANS  PTH_THRML  THRML_SCT  SURF_EMIS   SOL_SCAT  SING_SCAT  GRND_RFLT  DRCT_RFLT  TOTAL_RAD  "
@@ -133,7 +142,7 @@ std::string modtran_json_text(const SimulatedRun& run) {
  "SURFACE": {{"SURFTYPE": "REFL_CONSTANT", "SURREF": {}, "GNDALT": 0.0}},
  "SPECTRAL": {{"V1": 650.0, "V2": 28600.0, "DV": 10.0, "FWHM": 20.0, "XFLAG": "W"}}}},
  "MODTRANOUTPUT": {{"SPECTRA": {{"RADIANCE": {{)",
-        run.sensor_altitude_km, angle_at_sensor_deg(run), run.relative_azimuth_deg, run.sun_zenith_deg, run.albedo);
+        run.sensor_altitude_km, angle_at_sensor_deg(run), run.relative_azimuth_deg, sun_at_sensor_deg(run), run.albedo);
     text += array("FREQ", [](double v, C) { return v; }) + ",\n";
     text += array("TOT_TRANS", [](double, C c) { return c.tau; }) + ",\n";
     text += array("THRML_EM", [](double v, C c) { return per_wavenumber(c.thermal, v); }) + ",\n";
