@@ -142,9 +142,8 @@ Files modtran5(const DeckGeometry& g, const std::vector<DeckRun>& runs) {
     const int model = modtran_model(g.model);
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto& run = runs[i];
-        tape5 +=
-            fmt::format("TM  {}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:8.3f}{:7.2f}\n", model, 2,
-                        run.sun ? 2 : 1, 1, model, model, model, model, model, model, 0, 0, 0, 0.0, run.albedo);
+        tape5 += fmt::format("TM  {}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:8.3f}{:7.2f}\n", model, 2,
+                             run.sun ? 2 : 1, 1, model, model, model, model, model, model, 0, 0, 0, 0.0, run.albedo);
         tape5 += fmt::format("TFF  8   0{:10.3f}{:10}{:10}     F F F\n", 420.0, "", "");
         tape5 += fmt::format("{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:10.5f}{:10.5f}{:10.5f}{:10.5f}{:10.5f}\n", 1, 0, 0, 0, 0, 0,
                              g.visibility_km, 0.0, 0.0, 0.0, g.ground_elevation_km);
