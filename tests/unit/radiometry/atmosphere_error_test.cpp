@@ -91,7 +91,8 @@ Errors errors(const AtmosphereTable& t, Axis axis, const Window& window) {
                 const double scale =
                     mean_over({Quantity::Dimensionless, truth.wavelength_um, b}, window.lower_um, window.upper_um);
                 for (std::size_t l = 0; l < a.size(); ++l)
-                    if (truth.wavelength_um[l] >= window.lower_um && truth.wavelength_um[l] <= window.upper_um && scale > 0.0)
+                    if (truth.wavelength_um[l] >= window.lower_um && truth.wavelength_um[l] <= window.upper_um &&
+                        scale > 0.0)
                         to.add((a[l] - b[l]) / scale);
             };
             for (std::size_t l = 0; l < truth.wavelength_um.size(); ++l)
@@ -107,9 +108,9 @@ Errors errors(const AtmosphereTable& t, Axis axis, const Window& window) {
 }
 
 void print(const char* axis, const Window& w, const Errors& e) {
-    std::printf("%-8s %-8s tau %.4f / %.4f  L_pt %.4f / %.4f  L_ps %.4f / %.4f  E_dir %.4f / %.4f  E_dif %.4f / %.4f\n", axis,
-                w.name, e.tau.mean(), e.tau.largest, e.thermal.mean(), e.thermal.largest, e.solar.mean(), e.solar.largest,
-                e.direct.mean(), e.direct.largest, e.diffuse.mean(), e.diffuse.largest);
+    std::printf("%-8s %-8s tau %.4f / %.4f  L_pt %.4f / %.4f  L_ps %.4f / %.4f  E_dir %.4f / %.4f  E_dif %.4f / %.4f\n",
+                axis, w.name, e.tau.mean(), e.tau.largest, e.thermal.mean(), e.thermal.largest, e.solar.mean(),
+                e.solar.largest, e.direct.mean(), e.direct.largest, e.diffuse.mean(), e.diffuse.largest);
 }
 
 TEST(AtmosphereError, LeavingOutANode) {

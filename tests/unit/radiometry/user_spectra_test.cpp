@@ -63,8 +63,9 @@ TEST(UserSpectra, CsvErrors) {
 TEST(UserSpectra, EnviLibraryByName) {
     const TempFolder folder;
     const std::string head = "ENVI\ndescription = {\n  two grasses}\nsamples = 3\nlines = 2\nbands = 1\ndata type = 4\n";
-    save(folder / "lib.hdr", head + "byte order = 1\nwavelength units = Nanometers\nreflectance scale factor = 10000\n"
-                                    "spectra names = {\n green grass,\n Dry grass}\nwavelength = {400,\n 1000, 2500}\n");
+    save(folder / "lib.hdr", head +
+                                 "byte order = 1\nwavelength units = Nanometers\nreflectance scale factor = 10000\n"
+                                 "spectra names = {\n green grass,\n Dry grass}\nwavelength = {400,\n 1000, 2500}\n");
     save(folder / "lib.sli", big_endian<float>({500.0F, 5000.0F, 1000.0F, 3000.0F, 4000.0F, 2000.0F}));
     const auto s = load_reflectance(folder / "lib.sli", "dry grass");
     EXPECT_NEAR(s.at(0.4), 0.3, 1e-7);
