@@ -25,8 +25,8 @@ TEST(Cli, ExitCodes) {
 }
 
 TEST(Cli, EveryVerbHasHelpWithAnExample) {
-    for (const std::string verb :
-         {"run", "prepare", "render", "products", "check", "sensors", "calc", "fit-scar", "export", "import-atmosphere", "atmosphere-deck"}) {
+    for (const std::string verb : {"run", "prepare", "render", "products", "check", "sensors", "calc", "fit-scar", "export",
+                                   "import-atmosphere", "atmosphere-deck"}) {
         const auto help = pyroscene_cli(verb + " --help");
         EXPECT_EQ(help.exit_code, 0) << verb;
         EXPECT_NE(help.output.find("Example: pyroscene " + verb), std::string::npos) << verb << "\n" << help.output;

@@ -5,12 +5,8 @@
 #include <cmath>
 #include <fstream>
 
-#include <fmt/format.h>
-
 #include "base/constants.h"
-#include "base/csv.h"
 #include "gis/netcdf_input.h"
-#include "radiometry/planck.h"
 #include "system/modtran_files.h"
 #include "system/support.h"
 
@@ -148,41 +144,6 @@ TEST(ImportAtmosphere, RealChannelFile) {
     EXPECT_EQ(variable(out, "wavelength").size(), 223U);
 }
 
-// The deck says what to run; simulated runs of that geometry must make a complete table, and the scenario must accept it.
-TEST(AtmosphereDeck, ModtranDeckComesBackAsACompleteTable) {
-    const ScratchFolder scratch;
-    const std::string folder = scratch.path().string();
-    const auto scenario = (source_folder() / "scenarios/minimal/scenario.yaml").string();
-    const auto deck =
-        pyroscene_cli("atmosphere-deck " + scenario + " --acquisition camera_150s --for modtran6 -o " + folder);
-    ASSERT_EQ(deck.exit_code, 0) << deck.output;
-    const auto runs = read_csv(scratch / "runs.csv");
-    ASSERT_GE(runs.rows.size(), 10U);
-    const auto altitude = runs.numbers("sensor_altitude_km"), view = runs.numbers("view_zenith_deg"),
-               albedo = runs.numbers("albedo");
-    for (std::size_t r = 0; r < runs.rows.size(); ++r) {
-        const auto sun = runs.rows[r][runs.column("sun_zenith_deg")],
-                   azimuth = runs.rows[r][runs.column("relative_azimuth_deg")];
-        auto run = simulate(altitude[r], view[r], sun.empty() ? 40.0 : std::stod(sun),
-                            azimuth.empty() ? 0.0 : std::stod(azimuth), albedo[r]);
-        run.sun = !sun.empty();
-        save(scratch / runs.rows[r][runs.column("file")], modtran_json_text(run));
-    }
-    const auto result = pyroscene_cli("import-atmosphere " + folder + "/runs.csv -o " + folder + "/air.nc");
-    ASSERT_EQ(result.exit_code, 0) << result.output;
-    for (const std::string gap : {"adjacency is 0", "does not bounce", "it is 0", "stands for all", "Beer"})
-        EXPECT_EQ(result.output.find(gap), std::string::npos) << result.output;
-    const auto bright = variable(scratch / "air.nc", "spherical_albedo"),
-               td = variable(scratch / "air.nc", "diffuse_upward_transmittance");
-    const auto lambda = variable(scratch / "air.nc", "wavelength");
-    const auto terms = simulate(altitude[0], 0.0, 40.0, 0.0, 0.0).terms;
-    for (std::size_t l = 0; l < lambda.size(); ++l)
-        if (lambda[l] < 2.4 && terms.transmittance[l] > 0.1) {
-            ASSERT_NEAR(bright[l], terms.spherical_albedo[l], 2e-3) << lambda[l];
-            ASSERT_NEAR(td[l], terms.diffuse_transmittance[l], 2e-3) << lambda[l];
-        }
-}
-
 TEST(AtmosphereDeck, Tape5HasTheCardsInTheirColumns) {
     const ScratchFolder scratch;
     const auto scenario = (source_folder() / "scenarios/minimal/scenario.yaml").string();
@@ -205,75 +166,6 @@ TEST(AtmosphereDeck, Tape5HasTheCardsInTheirColumns) {
     const auto wrong = pyroscene_cli("atmosphere-deck " + scenario + " --acquisition nobody -o " + scratch.path().string());
     EXPECT_EQ(wrong.exit_code, 3);
     EXPECT_NE(wrong.output.find("camera_150s"), std::string::npos) << wrong.output;
-}
-
-TEST(AtmosphereDeck, LibRadtranOutputComesBack) {
-    const ScratchFolder scratch;
-    const std::string folder = scratch.path().string();
-    const auto scenario = (source_folder() / "scenarios/minimal/scenario.yaml").string();
-    ASSERT_EQ(
-        pyroscene_cli("atmosphere-deck " + scenario + " --acquisition camera_150s --for libradtran -o " + folder).exit_code,
-        0);
-    const auto runs = read_csv(scratch / "runs.csv");
-    const auto cell = [&](std::size_t r, const char* name) { return runs.rows[r][runs.column(name)]; };
-    const auto number = [&](std::size_t r, const char* name, double fallback) {
-        return cell(r, name).empty() ? fallback : std::stod(cell(r, name));
-    };
-    double sun_deg = 40.0;
-    for (std::size_t r = 0; r < runs.rows.size(); ++r) {
-        EXPECT_TRUE(std::filesystem::exists(scratch / (cell(r, "file").substr(0, cell(r, "file").size() - 3) + "inp")));
-        sun_deg = number(r, "sun_zenith_deg", sun_deg);
-        const double altitude = number(r, "sensor_altitude_km", 0.0), T = number(r, "surface_temperature_K", 0.0);
-        const auto run =
-            simulate(altitude, number(r, "view_zenith_deg", 0.0), sun_deg, number(r, "relative_azimuth_deg", 0.0), 0.0);
-        const double A = number(r, "albedo", 0.0), cosine = std::cos(sun_deg * kDegree_rad);
-        const auto& t = run.terms;
-        const bool thermal = cell(r, "source") == "thermal";
-        std::string text;
-        for (std::size_t l = 0; l < t.wavelength_um.size(); ++l) {
-            const double lambda = t.wavelength_um[l], nm = 1e3 * lambda, tau = t.transmittance[l];
-            if (thermal ? lambda < 2.5 : lambda > 5.0) continue;
-            const double dark = t.direct_normal[l] * cosine + t.diffuse[l];
-            const auto columns = cell(r, "columns");
-            if (columns == "lambda zout edir")
-                text += fmt::format("{:.4f} 0 {:.8e}\n{:.4f} {} 1.0\n", nm, tau, nm, altitude);
-            else if (columns == "lambda edir edn")
-                text += fmt::format("{:.4f} {:.8e} {:.8e}\n", nm, t.direct_normal[l] * cosine,
-                                    dark / (1.0 - A * t.spherical_albedo[l]) - t.direct_normal[l] * cosine);
-            else if (columns == "lambda edn")
-                text += fmt::format("{:.4f} {:.8e}\n", nm, 1e-3 * t.thermal_sky[l]);
-            else if (thermal)
-                text += fmt::format("{:.4f} {:.10e}\n", nm,
-                                    1e-3 * (tau * radiometry::planck_radiance(lambda, T) + t.path_thermal[l]));
-            else
-                text += fmt::format("{:.4f} {:.8e}\n", nm, t.path_solar[l]);
-        }
-        save(scratch / cell(r, "file"), text);
-    }
-    const auto result = pyroscene_cli("import-atmosphere " + folder + "/runs.csv -o " + folder + "/air.nc");
-    ASSERT_EQ(result.exit_code, 0) << result.output;
-    const auto tau = variable(scratch / "air.nc", "transmittance"),
-               sky = variable(scratch / "air.nc", "thermal_sky_irradiance"),
-               S = variable(scratch / "air.nc", "spherical_albedo"),
-               thermal = variable(scratch / "air.nc", "path_thermal_radiance"),
-               solar = variable(scratch / "air.nc", "path_solar_radiance"),
-               diffuse = variable(scratch / "air.nc", "diffuse_solar_irradiance");
-    const auto expected = simulate(number(0, "sensor_altitude_km", 0.0), 0.0, sun_deg, 0.0, 0.0).terms;
-    // Irradiances of the table are for 1 AU, the runs for their day of the year.
-    const double day = 224.0, AU = 1.0 - 0.01672 * std::cos(2.0 * kPi * (day - 4.0) / 365.256);
-    ASSERT_EQ(tau.size() % expected.wavelength_um.size(), 0U);
-    for (std::size_t l = 0; l < expected.wavelength_um.size(); ++l) {
-        SCOPED_TRACE(expected.wavelength_um[l]);
-        ASSERT_NEAR(tau[l], expected.transmittance[l], 1e-5);
-        if (expected.wavelength_um[l] > 2.6) {
-            ASSERT_NEAR(thermal[l], expected.path_thermal[l], 1e-4 * expected.path_thermal[l] + 1e-5);
-            ASSERT_NEAR(sky[l], expected.thermal_sky[l], 1e-5 * expected.thermal_sky[l]);
-        } else {
-            ASSERT_NEAR(solar[l], expected.path_solar[l] * AU * AU, 1e-5 * expected.path_solar[l] + 1e-7);
-            ASSERT_NEAR(diffuse[l], expected.diffuse[l] * AU * AU, 1e-5 * expected.diffuse[l] + 1e-6);
-            ASSERT_NEAR(S[l], expected.spherical_albedo[l], 1e-3);
-        }
-    }
 }
 
 TEST(ImportAtmosphere, RefusesWhatItCannotUse) {
