@@ -39,6 +39,13 @@ Geodetic move_along_geodesic(const Geodetic& from, double azimuth_deg, double di
     return to;
 }
 
+GeodesicStep step_along_geodesic(const Geodetic& from, double azimuth_deg, double distance_m) noexcept {
+    GeodesicStep to{.point = {.lat_deg = 0.0, .lon_deg = 0.0, .h_m = from.h_m}};
+    GeographicLib::Geodesic::WGS84().Direct(from.lat_deg, from.lon_deg, azimuth_deg, distance_m, to.point.lat_deg,
+                                            to.point.lon_deg, to.azimuth_deg);
+    return to;
+}
+
 std::string utm_or_ups_crs(double lat_deg, double lon_deg) {
     if (!(std::abs(lat_deg) <= 90.0) || !std::isfinite(lon_deg))
         throw input_error("position", fmt::format("latitude {} and longitude {} are not on the Earth", lat_deg, lon_deg));

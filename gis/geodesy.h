@@ -26,6 +26,13 @@ LocalAxes local_axes(double lat_deg, double lon_deg) noexcept;
 /// Point reached from `from` on a geodesic of WGS 84 (GeographicLib), same height.
 Geodetic move_along_geodesic(const Geodetic& from, double azimuth_deg, double distance_m) noexcept;
 
+/// The same, with the azimuth of the geodesic at the point reached.
+struct GeodesicStep {
+    Geodetic point;
+    double azimuth_deg = 0.0;
+};
+GeodesicStep step_along_geodesic(const Geodetic& from, double azimuth_deg, double distance_m) noexcept;
+
 /// EPSG code text ("EPSG:32611") of the UTM zone, or of UPS near the poles, that contains the point (GeographicLib).
 std::string utm_or_ups_crs(double lat_deg, double lon_deg);
 

@@ -79,6 +79,10 @@ EcefRay pixel_ray(const Sensor& sensor, const CameraGroup& group, const Pose& po
     const ImagePoint ideal = undistorted(sensor, group, measured);
     // Camera x (right in the image) is the right wing, camera y (down in the image) points backwards, the axis down.
     const Vec3 mounted{-ideal.y, ideal.x, 1.0};
+    return body_ray(sensor, pose, mounted);
+}
+
+EcefRay body_ray(const Sensor& sensor, const Pose& pose, Vec3 mounted) {
     const auto& offset = sensor.boresight_offset_rad;
     const Vec3 body = rotate_attitude(offset[2], offset[1], offset[0], mounted);
     const Vec3 ned = rotate_attitude(pose.heading_rad, pose.pitch_rad, pose.roll_rad, body);

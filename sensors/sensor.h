@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "base/spectrum.h"
+#include "sensors/scan.h"
 
 namespace pyroscene::sensors {
 
-/// How an instrument looks at the ground. Geometry exists for Framing; the others are read and listed.
+/// How an instrument looks at the ground, in the words of the sensor files; ScanLaw says it in numbers.
 enum class ScanType { Framing, Pushbroom, Whiskbroom, LineScanner, Conical, SpinScan, GeoScan };
 
 /// One focal plane: bands of a group share pixels.
@@ -21,6 +22,19 @@ struct CameraGroup {
     std::array<double, 2> principal_point_px{};        ///< pixel CENTRES at integers, as the files write it
     std::array<double, 3> radial{};                    ///< Brown k1, k2, k3 on (x/f, y/f)
     std::array<double, 2> tangential{};                ///< Brown p1, p2
+    ScanLaw scan{};                                    ///< of the first view
+    struct View {
+        std::string name;
+        ScanLaw scan{};
+    };
+    std::vector<View> views{};  ///< cones look at the same ground twice; empty for all others
+};
+
+/// Circular orbit; height above the ellipsoid under the satellite.
+struct Orbit {
+    double height_m = 0.0;
+    double inclination_deg = 0.0;                    ///< above 90 = retrograde
+    std::optional<double> geostationary_longitude_deg;  ///< of a satellite that stands still
 };
 
 /// Point-spread function along one image axis.
@@ -54,6 +68,7 @@ struct Sensor {
     std::string id, name, platform_name, source_path;
     bool airborne = true;
     double altitude_agl_m = 0.0, ground_speed_m_s = 0.0;
+    std::optional<Orbit> orbit;
     ScanType scan = ScanType::Framing;
     std::array<double, 3> boresight_offset_rad{};  ///< roll, pitch, heading misalignment between body and camera
     std::vector<CameraGroup> groups;

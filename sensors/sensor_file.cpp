@@ -34,7 +34,9 @@ void read_platform(const Node& platform, Sensor& sensor) {
     if (const Node orbit = platform.child("orbit"); orbit.present()) {
         sensor.altitude_agl_m = orbit.number("altitude_m", 0.0, Range::positive());
         sensor.ground_speed_m_s = orbit.number("ground_speed_m_s", 0.0, Range::not_negative());
-        accept(orbit, {"kind", "inclination_deg", "local_time", "sub_longitude_deg"});
+        sensor.orbit = Orbit{sensor.altitude_agl_m, orbit.number("inclination_deg", 0.0, Range::between(0.0, 180.0)),
+                             orbit.optional_number("sub_longitude_deg", Range::between(-180.0, 180.0))};
+        accept(orbit, {"kind", "local_time"});
         orbit.finish();
     }
     accept(platform, {"alternative", "target_local_m", "position_local_m"});
@@ -63,7 +65,7 @@ void read_framing_group(const Node& node, CameraGroup& group) {
     group.principal_point_px = {0.5 * (group.samples - 1), 0.5 * (group.lines - 1)};
 }
 
-CameraGroup read_group(const std::string& id, const Node& node, const Node& geometry, ScanType scan) {
+CameraGroup read_group(const std::string& id, const Node& node, const Node& geometry, const Sensor& sensor) {
     CameraGroup group;
     group.id = id;
     const auto count = [](const Node& parent, const char* key) {
@@ -74,10 +76,11 @@ CameraGroup read_group(const std::string& id, const Node& node, const Node& geom
     group.lines = count(node, "detectors_along_track");
     group.focal_length_m = 1e-3 * node.number("focal_length_mm", 0.0, Range::positive());
     group.pixel_pitch_m = 1e-6 * node.number("pixel_pitch_um", 0.0, Range::positive());
-    if (scan == ScanType::Framing) read_framing_group(node, group);
+    if (sensor.scan == ScanType::Framing) read_framing_group(node, group);
     if (const auto point = node.numbers("principal_point_px", 2); !point.empty())
         group.principal_point_px = {point[0], point[1]};
     read_distortion(node.child("distortion"), group);
+    read_scan(geometry, node, sensor, group);
     accept(node, {"nx",
                   "ny",
                   "ifov_across_mrad",
@@ -209,7 +212,7 @@ void read_geometry(const Node& geometry, Sensor& sensor) {
         std::transform(offset.begin(), offset.end(), sensor.boresight_offset_rad.begin(),
                        [](double angle_deg) { return angle_deg * kDegree_rad; });
     const Node groups = geometry.required_child("groups");
-    for (const auto& id : groups.keys()) sensor.groups.push_back(read_group(id, groups.child(id), geometry, sensor.scan));
+    for (const auto& id : groups.keys()) sensor.groups.push_back(read_group(id, groups.child(id), geometry, sensor));
     if (groups.present() && sensor.groups.empty()) groups.report("expected at least one group of pixels");
     groups.finish();
     accept_scan_law(geometry);

@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/random.h"
-#include "sensors/framing.h"
+#include "sensors/image_chords.h"
 
 namespace pyroscene::sensors {
 namespace {
@@ -26,6 +26,18 @@ Pose pose_of(const View& v) {
             .roll_rad = v.roll_deg * kDegree_rad};
 }
 
+/// Chords of one frame.
+ImageChords frame(const Sensor& sensor, const CameraGroup& camera, const Pose& pose, const gis::MapProjection& map,
+                  Vec3 origin_m, double bottom_m, double top_m) {
+    const ImageGeometry image{.sensor = &sensor,
+                              .group = &camera,
+                              .scan = camera.scan,
+                              .path = standing(pose),
+                              .samples = camera.samples,
+                              .lines = camera.lines};
+    return {image, map, origin_m, bottom_m, top_m};
+}
+
 class AnyView : public testing::TestWithParam<View> {};
 
 TEST_P(AnyView, IsInterpolatedToAMillimetre) {
@@ -36,7 +48,8 @@ TEST_P(AnyView, IsInterpolatedToAMillimetre) {
     const gis::MapProjection map(view.crs);
     const auto under = map.to_map(view.position.lat_deg, view.position.lon_deg);
     const Vec3 origin{std::round(under[0]), std::round(under[1]), 1000.0};
-    const FrameChords chords(wasp, ir, pose, map, origin, view.bottom_m, view.top_m);
+    const ImageChords image = frame(wasp, ir, pose, map, origin, view.bottom_m, view.top_m);
+    const ScanChords chords = image.scan(0);
     double worst = 0.0, worst_view = 0.0, worst_deg = 0.0;  // the first in units of what is allowed
     for (std::uint64_t i = 0; i < 2000; ++i) {              // anywhere in the frame and 4 pixels around it
         const double sample = -4.0 + 648.0 * uniform01({}, i, 0), line = -4.0 + 520.0 * uniform01({}, i, 1);
@@ -87,9 +100,9 @@ TEST(FrameChords, StartAtAPlatformBelowTheUpperShell) {
     const Sensor wasp = load_sensor("wasp");
     const gis::MapProjection map(kLow.crs);
     const auto under = map.to_map(kLow.position.lat_deg, kLow.position.lon_deg);
-    const FrameChords chords(wasp, wasp.group("ir"), pose_of(kLow), map, {under[0], under[1], 0.0}, kLow.bottom_m,
-                             kLow.top_m);
-    const Chord chord = chords.at(100.0, 400.0);
+    const ImageChords chords =
+        frame(wasp, wasp.group("ir"), pose_of(kLow), map, {under[0], under[1], 0.0}, kLow.bottom_m, kLow.top_m);
+    const Chord chord = chords.scan(0).at(100.0, 400.0);
     EXPECT_NEAR(length(chord.top_m - Vec3{0.0, 0.0, 2000.0}), 0.0, 1e-6);
     EXPECT_NEAR(chord.top_range_m, 0.0, 1e-9);
     EXPECT_NEAR(chord.bottom_m.z, 900.0, 1e-9);
@@ -99,8 +112,8 @@ TEST(FrameChords, StartAtAPlatformBelowTheUpperShell) {
 std::string message_of(const View& view) {
     const Sensor wasp = load_sensor("wasp");
     try {
-        const FrameChords chords(wasp, wasp.group("ir"), pose_of(view), gis::MapProjection(view.crs), {}, view.bottom_m,
-                                 view.top_m);
+        static_cast<void>(frame(wasp, wasp.group("ir"), pose_of(view), gis::MapProjection(view.crs), {}, view.bottom_m,
+                                view.top_m));
     } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::Input);
         return e.what();

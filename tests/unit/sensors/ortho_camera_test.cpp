@@ -12,7 +12,7 @@
 
 #include "analysis/ortho.h"
 #include "base/constants.h"
-#include "sensors/framing.h"
+#include "sensors/image_chords.h"
 
 namespace pyroscene::sensors {
 namespace {
@@ -76,7 +76,16 @@ protected:
         camera_.principal_point_px = {0.5 * (camera_.samples - 1), 0.5 * (camera_.lines - 1)};
         const auto under = map_.to_map(view.lat_deg, view.lon_deg);
         origin_m_ = {std::round(under[0]), std::round(under[1]), 0.0};
-        const FrameChords chords(wasp_, camera_, pose_, map_, origin_m_, kLowest_m, kHighest_m);
+        camera_.scan.positions = camera_.samples;
+        camera_.scan.lines_per_scan = camera_.lines;
+        const ImageGeometry image{.sensor = &wasp_,
+                                  .group = &camera_,
+                                  .scan = camera_.scan,
+                                  .path = standing(pose_),
+                                  .samples = camera_.samples,
+                                  .lines = camera_.lines};
+        const ImageChords frame(image, map_, origin_m_, kLowest_m, kHighest_m);
+        const ScanChords chords = frame.scan(0);
         for (int line = 0; line < camera_.lines; ++line)
             for (int sample = 0; sample < camera_.samples; ++sample) {
                 const Vec3 hit = first_hit(chords.at(sample + 0.5, line + 0.5));
