@@ -178,8 +178,8 @@ double lattice_error(const ExactChords& exact, const ChordLattice& lattice, doub
             const auto here = interpolate<kSlots>(lattice, nodes.data(), u, v);
             const double pixel_m = std::max(ground_distance_m(interpolate<kSlots>(lattice, nodes.data(), u + 1.0, v), here),
                                             ground_distance_m(interpolate<kSlots>(lattice, nodes.data(), u, v + 1.0), here));
-            error = std::max(error, ground_distance_m(exact.at(scan, u, v), here) /
-                                        std::max(kTolerance_m, kTolerance_px * pixel_m));
+            error = std::max(
+                error, ground_distance_m(exact.at(scan, u, v), here) / std::max(kTolerance_m, kTolerance_px * pixel_m));
         }
     return error;
 }
@@ -223,7 +223,8 @@ ImageChords::ImageChords(const ImageGeometry& image, const gis::MapProjection& m
     const ScanLaw& law = image.scan;
     double widest = 1.0;
     for (const auto& zone : law.zones) widest = std::max<double>(widest, zone.width);
-    const double left = scan_position(law, image.first_sample), right = scan_position(law, image.first_sample + image.samples);
+    const double left = scan_position(law, image.first_sample),
+                 right = scan_position(law, image.first_sample + image.samples);
     const bool frame = law.kind == ScanLaw::Kind::Frame;
     const bool window = frame || law.kind == ScanLaw::Kind::Disk;
     const double v_margin = kMargin_px + law.stagger;

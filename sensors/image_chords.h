@@ -52,7 +52,8 @@ public:
     /// \param scene_origin_m map coordinates of the scene frame's origin  \param bottom_m, top_m ellipsoidal heights of the
     /// two shells; a platform below the upper shell starts the chord itself.
     /// Throws an input error when the instrument does not look at the ground.
-    ImageChords(const ImageGeometry& image, const gis::MapProjection& map, Vec3 scene_origin_m, double bottom_m, double top_m);
+    ImageChords(const ImageGeometry& image, const gis::MapProjection& map, Vec3 scene_origin_m, double bottom_m,
+                double top_m);
 
     /// Chords of a scan. Positions may be a little (4 pixels) outside it. Cheap, but make it once per run of pixels.
     [[nodiscard]] ScanChords scan(int number) const;
@@ -60,7 +61,7 @@ public:
 private:
     ChordLattice lattice_;
     int first_scan_ = 0, stride_ = 1, scan_nodes_ = 1;  ///< lattice nodes along the scans
-    std::vector<ChordNode> nodes_;                       ///< [scan node][row][col]
+    std::vector<ChordNode> nodes_;                      ///< [scan node][row][col]
 };
 
 }  // namespace pyroscene::sensors

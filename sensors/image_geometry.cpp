@@ -15,12 +15,19 @@ std::string subject(const ImageGeometry& image) {
     return fmt::format("sensor {}, group {}", image.sensor->id, image.group->id);
 }
 
+std::string no_view(const CameraGroup& group, const std::string& view) {
+    std::string names;
+    for (const auto& v : group.views) names += (names.empty() ? "" : ", ") + v.name;
+    return fmt::format("no view '{}'; it has {}", view, names.empty() ? "one only, without a name" : names);
+}
+
 /// One scan holds all lines of the image.
 bool one_scan(const ScanLaw& law) { return law.kind == ScanLaw::Kind::Frame || law.kind == ScanLaw::Kind::Disk; }
 
 /// Direction to a point in the frame of the instrument at a pose: what body_ray() undoes.
 Vec3 instrument_direction(const Sensor& sensor, const Pose& pose, Vec3 ecef_m) {
-    const Vec3 forward = body_ray(sensor, pose, {1.0, 0.0, 0.0}).direction, right = body_ray(sensor, pose, {0.0, 1.0, 0.0}).direction,
+    const Vec3 forward = body_ray(sensor, pose, {1.0, 0.0, 0.0}).direction,
+               right = body_ray(sensor, pose, {0.0, 1.0, 0.0}).direction,
                down = body_ray(sensor, pose, {0.0, 0.0, 1.0}).direction;
     const Vec3 d = normalized(ecef_m - gis::ecef_from_geodetic(pose.position));
     return {dot(d, forward), dot(d, right), dot(d, down)};
@@ -32,7 +39,8 @@ struct Found {
     double along = 0.0, u = 0.0;
 };
 std::optional<Found> find(const ImageGeometry& image, Vec3 ecef_m) {
-    const ScanLaw& law = image.scan;
+    ScanLaw law = image.scan;
+    law.alternating = false;  // a sweep's direction hardly moves its pixels, but it would make the search jump
     const bool single = one_scan(law);
     const double middle = 0.5 * law.lines_per_scan;
     // Misses: how far, to the right and ahead, the point is from where position (along, u) looks [rad].
@@ -43,7 +51,9 @@ std::optional<Found> find(const ImageGeometry& image, Vec3 ecef_m) {
         held.roll_rad -= std::clamp(pose.roll_rad, -law.roll_compensation_rad, law.roll_compensation_rad);
         const Vec3 to = instrument_direction(*image.sensor, held, ecef_m), looks = scan_direction(law, f.u, v);
         const Vec3 side = normalized(cross({1.0, 0.0, 0.0}, looks)), ahead = cross(looks, side);
-        return std::array<double, 2>{std::atan2(dot(to, side), dot(to, looks)), std::atan2(dot(to, ahead), dot(to, looks))};
+        const double right = dot(to, side), centre = dot(to, looks);
+        // Over flat ground the first is linear in the scan angle, the second in the distance flown, however large they are.
+        return std::array<double, 2>{std::atan2(right, centre), dot(to, ahead) / std::hypot(right, centre)};
     };
     Found f{single ? middle : 0.0, 0.5 * law.positions};
     constexpr int kMaximumSteps = 40;
@@ -84,9 +94,10 @@ ScanLaw resolved_scan(const Sensor& sensor, const CameraGroup& group, const std:
                       double ground_speed_m_s) {
     ScanLaw law = group.scan;
     if (!view.empty()) {
-        const auto found = std::find_if(group.views.begin(), group.views.end(), [&](const auto& v) { return v.name == view; });
+        const auto found =
+            std::find_if(group.views.begin(), group.views.end(), [&](const auto& v) { return v.name == view; });
         if (found == group.views.end())
-            throw input_error(fmt::format("sensor {}, group {}", sensor.id, group.id), fmt::format("no view '{}'", view));
+            throw input_error(fmt::format("sensor {}, group {}", sensor.id, group.id), no_view(group, view));
         law = found->scan;
     }
     if (one_scan(law)) return law;
@@ -129,6 +140,11 @@ double pixel_time_s(const ImageGeometry& image, int sample, int line) {
     return image.time_s + scan_time_s(image.scan, p.scan, p.u, p.v);
 }
 
+bool pixel_deleted(const ImageGeometry& image, int sample, int line) {
+    const auto position = scan_position_of(image, sample, line);
+    return scan_deletes(image.scan, image.first_sample + sample, static_cast<int>(std::floor(position.v)));
+}
+
 void crop_to(ImageGeometry& image, std::span<const gis::Geodetic> points, int margin, bool all_samples,
              std::optional<int> lines) {
     const ScanLaw& law = image.scan;
@@ -140,12 +156,16 @@ void crop_to(ImageGeometry& image, std::span<const gis::Geodetic> points, int ma
     for (const auto& point : points) {
         const auto found = find(image, gis::ecef_from_geodetic(point));
         if (!found) throw input_error(subject(image), "the scene is not within reach of its scan");
-        const double sample = sample_of(law, found->u), line = one_scan(law) ? found->along : found->along * law.lines_per_scan;
+        const double sample = sample_of(law, found->u),
+                     line = one_scan(law) ? found->along : found->along * law.lines_per_scan;
         left = std::min(left, sample);
         right = std::max(right, sample);
         first = std::min(first, line);
         last = std::max(last, line);
     }
+    constexpr double kMostLines = 1e6;
+    if (!(last - first < kMostLines))
+        throw input_error(subject(image), "the scene takes more than a million lines; give `lines`");
     if (right < 0.0 || left > law.samples())
         throw input_error(subject(image), fmt::format("the scene lies at samples {:.0f} to {:.0f} of a line of {}: outside "
                                                       "its swath",
@@ -166,12 +186,14 @@ void crop_to(ImageGeometry& image, std::span<const gis::Geodetic> points, int ma
         image.lines = (last_scan - first_scan + 1) * m;
     }
     if (lines) {
-        image.first_line += (image.lines - *lines) / 2;
+        // Around the middle of the scene on a disk, else around scan 0, which looks at what the path was made for.
+        image.first_line = one_scan(law) ? image.first_line + (image.lines - *lines) / 2 : (law.lines_per_scan - *lines) / 2;
         image.lines = *lines;
         if (one_scan(law)) image.first_line = std::clamp(image.first_line, 0, std::max(0, law.lines_per_scan - *lines));
     }
     if (law.kind == ScanLaw::Kind::Disk)
-        image.time_s -= scan_time_s(law, 0.0, image.first_sample + 0.5 * image.samples, image.first_line + 0.5 * image.lines);
+        image.time_s -=
+            scan_time_s(law, 0.0, image.first_sample + 0.5 * image.samples, image.first_line + 0.5 * image.lines);
 }
 
 }  // namespace pyroscene::sensors

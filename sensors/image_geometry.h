@@ -14,8 +14,8 @@ struct ImageGeometry {
     const Sensor* sensor = nullptr;
     const CameraGroup* group = nullptr;
     ScanLaw scan{};
-    Trajectory path{};     ///< at time 0 as the scan's: the middle of scan 0 (of the line, of the disk)
-    double time_s = 0.0;   ///< added to times of the image (acquisition), not to those asked of the path
+    Trajectory path{};    ///< at time 0 as the scan's: the middle of scan 0 (of the line, of the disk)
+    double time_s = 0.0;  ///< added to times of the image (acquisition), not to those asked of the path
     int first_sample = 0, samples = 0;
     int first_line = 0, lines = 0;  ///< line = scan * lines_per_scan + line of the scan; may be negative
 };
@@ -45,10 +45,13 @@ struct ScanPosition {
 ScanPosition scan_position_of(const ImageGeometry& image, int sample, int line, double sample_offset = 0.0,
                               double line_offset = 0.0);
 
+/// True for pixels that the instrument does not send (bow-tie deletion of VIIRS).
+bool pixel_deleted(const ImageGeometry& image, int sample, int line);
+
 /// Sets the samples and lines of the image to those that see any of the points (corners of a scene, at its lowest and highest
 /// ground), with `margin` pixels around them. For laws of whole frames (Frame) it takes all. A disk also gets its time 0
 /// moved to the middle of what is left. Throws an input error when the instrument does not see the points.
-/// \param all_samples  keep whole lines  \param lines  as many lines, around the middle of those found
+/// \param all_samples  keep whole lines  \param lines  as many lines, around scan 0 (on a disk around the points)
 void crop_to(ImageGeometry& image, std::span<const gis::Geodetic> points, int margin, bool all_samples,
              std::optional<int> lines);
 

@@ -110,8 +110,7 @@ Vec3 mirror_direction(double sigma_rad, double tau_rad) noexcept {
 }
 
 Vec3 scan_direction(const ScanLaw& law, double u, double v) noexcept {
-    const double tau =
-        (v - 0.5 * law.lines_per_scan) * law.step_along_rad * (law.leading_detector_first ? -1.0 : 1.0);
+    const double tau = (v - 0.5 * law.lines_per_scan) * law.step_along_rad * (law.leading_detector_first ? -1.0 : 1.0);
     switch (law.kind) {
         case ScanLaw::Kind::Frame:
             break;

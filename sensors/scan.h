@@ -22,27 +22,27 @@ struct ScanLaw {
         Disk        ///< two angles from a geostationary place: one scan holds all lines
     } kind = Kind::Frame;
 
-    int positions = 0;       ///< along a line; VIIRS counts unaggregated samples here
-    int lines_per_scan = 1;  ///< detectors along track
-    double period_s = 0.0;   ///< from scan to scan; 0 = contiguous at nadir, from height and speed
+    int positions = 0;               ///< along a line; VIIRS counts unaggregated samples here
+    int lines_per_scan = 1;          ///< detectors along track
+    double period_s = 0.0;           ///< from scan to scan; 0 = contiguous at nadir, from height and speed
     std::vector<double> rates_hz{};  ///< more than one: the slowest that leaves no gaps at nadir is taken
-    double scan_rate_rad_s = 0.0;  ///< of the angle across track (of the cone's rotation); 0 = a line at once
-    double step_across_rad = 0.0;  ///< between positions (of the cone's or disk's own angle)
-    double step_along_rad = 0.0;   ///< between detectors, and the height of one
+    double scan_rate_rad_s = 0.0;    ///< of the angle across track (of the cone's rotation); 0 = a line at once
+    double step_across_rad = 0.0;    ///< between positions (of the cone's or disk's own angle)
+    double step_along_rad = 0.0;     ///< between detectors, and the height of one
     double pitch_over_focal = 0.0, centre_position = 0.0;  ///< Pushbroom: central projection along the line
     double stagger = 0.0;  ///< Pushbroom: every second sample looks this far ahead, the others behind [+- lines]
 
-    bool right_to_left = false;         ///< position 0 is at the right wing
+    bool right_to_left = false;           ///< position 0 is at the right wing
     bool leading_detector_first = false;  ///< v = 0 looks ahead instead of behind
-    bool image_rotates = false;         ///< a single 45 deg mirror turns the focal plane with the scan angle
-    bool alternating = false;           ///< every second sweep runs the other way (the samples are put in order)
-    bool line_corrector = false;        ///< sweeps are made straight: the platform stands still during one
+    bool image_rotates = false;           ///< a single 45 deg mirror turns the focal plane with the scan angle
+    bool alternating = false;             ///< every second sweep runs the other way (the samples are put in order)
+    bool line_corrector = false;          ///< sweeps are made straight: the platform stands still during one
 
-    double amplitude_rad = 0.0;      ///< Mirror that swings like a sine: sigma = amplitude * sin(omega t)
-    double ground_spacing_m = 0.0;   ///< Mirror sampled at equal distances on a round Earth
-    double orbit_height_m = 0.0;     ///< for ground_spacing_m
+    double amplitude_rad = 0.0;     ///< Mirror that swings like a sine: sigma = amplitude * sin(omega t)
+    double ground_spacing_m = 0.0;  ///< Mirror sampled at equal distances on a round Earth
+    double orbit_height_m = 0.0;    ///< for ground_spacing_m
     double cone_half_angle_rad = 0.0, cone_tilt_rad = 0.0, cone_centre_rad = 0.0;  ///< rotation angle of the line's middle
-    bool sweep_x = false;            ///< Disk: fixed-grid angles of a sweep about x (GOES-R), else about y
+    bool sweep_x = false;  ///< Disk: fixed-grid angles of a sweep about x (GOES-R), else about y
 
     /// VIIRS: from the middle outwards, `width` samples of one pixel for `pixels` pixels on each side.
     struct Zone {

@@ -199,8 +199,10 @@ void read_cone(const Numbers& n, const Sensor& sensor, CameraGroup& group) {
         view.finish();
         group.views.push_back({name, one});
     }
-    if (group.views.empty()) views.report("expected at least one view");
-    else group.scan = group.views.front().scan;
+    if (group.views.empty())
+        views.report("expected at least one view");
+    else
+        group.scan = group.views.front().scan;
 }
 
 void read_disk(const Numbers& n, const Sensor& sensor, const CameraGroup& group, ScanLaw& law) {
@@ -226,8 +228,8 @@ void read_disk(const Numbers& n, const Sensor& sensor, const CameraGroup& group,
     const auto frame_deg = n.geometry().numbers("frame_deg");
     constexpr double kUsualFrame_deg = 20.0;
     if (law.positions == 0 && law.step_across_rad > 0.0)
-        law.positions = static_cast<int>((frame_deg.empty() ? kUsualFrame_deg : frame_deg.front()) * kDegree_rad /
-                                         law.step_across_rad);
+        law.positions =
+            static_cast<int>((frame_deg.empty() ? kUsualFrame_deg : frame_deg.front()) * kDegree_rad / law.step_across_rad);
     law.period_s = spin_s * turns_per_line;
     law.scan_rate_rad_s = 2.0 * kPi / spin_s;
 }
@@ -245,9 +247,10 @@ void finish(const CameraGroup& group, const Node& node, const char* view, const 
     if (law.positions > 0 && law.lines_per_scan > 0 && law.step_along_rad > 0.0 &&
         (law.step_across_rad > 0.0 || law.ground_spacing_m > 0.0))
         return;
-    node.report(fmt::format("group '{}'{}: samples per line and the angles of a pixel do not follow from the file; give "
-                            "samples_per_line, ifov_across_mrad and ifov_along_mrad",
-                            group.id, view));
+    node.report(
+        fmt::format("group '{}'{}: samples per line and the angles of a pixel do not follow from the file; give "
+                    "samples_per_line, ifov_across_mrad and ifov_along_mrad",
+                    group.id, view));
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ struct CameraGroup {
 /// Circular orbit; height above the ellipsoid under the satellite.
 struct Orbit {
     double height_m = 0.0;
-    double inclination_deg = 0.0;                    ///< above 90 = retrograde
-    std::optional<double> geostationary_longitude_deg;  ///< of a satellite that stands still
+    double inclination_deg = 0.0;                         ///< above 90 = retrograde
+    std::optional<double> geostationary_longitude_deg{};  ///< of a satellite that stands still
 };
 
 /// Point-spread function along one image axis.

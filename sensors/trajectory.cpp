@@ -115,8 +115,8 @@ struct Circle {
         const Vec3 position = turned(radius_m * (c * out + s * ahead), turn);
         const Vec3 inertial = turned(radius_m * rate_rad_s * (c * ahead - s * out), turn);
         const Vec3 velocity = inertial - cross({0.0, 0.0, kEarthRate_rad_s}, position);
-        Pose pose{.position = gis::geodetic_from_ecef(position), .pitch_rad = pitch_rad, .roll_rad = roll_rad,
-                  .time_s = time_s};
+        Pose pose{
+            .position = gis::geodetic_from_ecef(position), .pitch_rad = pitch_rad, .roll_rad = roll_rad, .time_s = time_s};
         const auto axes = gis::local_axes(pose.position.lat_deg, pose.position.lon_deg);
         pose.heading_rad = std::atan2(dot(velocity, axes.east), dot(velocity, axes.north));
         return pose;
@@ -152,8 +152,7 @@ Trajectory standing(const Pose& pose) {
 
 Trajectory straight_flight(const Pose& pose, double ground_speed_m_s) {
     const auto at = [pose, ground_speed_m_s](double time_s) {
-        const auto step =
-            gis::step_along_geodesic(pose.position, pose.heading_rad / kDegree_rad, ground_speed_m_s * time_s);
+        const auto step = gis::step_along_geodesic(pose.position, pose.heading_rad / kDegree_rad, ground_speed_m_s * time_s);
         Pose now = pose;
         now.position = step.point;
         now.heading_rad = step.azimuth_deg * kDegree_rad;

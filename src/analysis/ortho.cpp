@@ -120,15 +120,15 @@ CellRange cells_between(std::array<double, 4> at, int count) {
 }
 
 /// Gives the cells under one quad their image position.
-void fill_quad(const NodeGrid& nodes, int i, int j, OrthoLookup& lookup) {
+void fill_quad(const NodeGrid& nodes, int first_line, int i, int j, OrthoLookup& lookup) {
     const Node &a = nodes.at(i, j), &b = nodes.at(i + 1, j), &c = nodes.at(i, j + 1), &d = nodes.at(i + 1, j + 1);
     if (!std::isfinite(a.col + a.row + a.z + b.col + b.row + b.z + c.col + c.row + c.z + d.col + d.row + d.z)) return;
     const CellRange cols = cells_between({a.col, b.col, c.col, d.col}, lookup.grid.cols);
     const CellRange rows = cells_between({a.row, b.row, c.row, d.row}, lookup.grid.rows);
     if (cols.first > cols.last || rows.first > rows.last) return;
     const Quad quad(a, b, c, d);
-    const double sample = nodes.sample_of(i), line = nodes.line_of(j);
-    const double width = nodes.sample_of(i + 1) - sample, height = nodes.line_of(j + 1) - line;
+    const double sample = nodes.sample_of(i), line = first_line + nodes.line_of(j);
+    const double width = nodes.sample_of(i + 1) - sample, height = first_line + nodes.line_of(j + 1) - line;
     Quad::Position p;
     for (int row = rows.first; row <= rows.last; ++row)
         for (int col = cols.first; col <= cols.last; ++col) {
@@ -174,7 +174,7 @@ float nearest_pixel(std::span<const float> plane, int samples, int lines, double
 }  // namespace
 
 OrthoLookup ortho_lookup(const MapGrid& grid, int samples, int lines, std::span<const double> x_m,
-                         std::span<const double> y_m, std::span<const double> z_m) {
+                         std::span<const double> y_m, std::span<const double> z_m, const ScanLines& scans) {
     if (samples < 2 || lines < 2)
         throw input_error(
             "ortho", fmt::format("an image of {} x {} pixels has no neighbours to interpolate between", samples, lines));
@@ -183,9 +183,16 @@ OrthoLookup ortho_lookup(const MapGrid& grid, int samples, int lines, std::span<
     constexpr float kNothing = -std::numeric_limits<float>::infinity();
     OrthoLookup lookup{grid, std::vector<float>(grid.size(), kNoData), std::vector<float>(grid.size(), kNoData),
                        std::vector<float>(grid.size(), kNothing)};
-    const NodeGrid nodes(grid, samples, lines, x_m, y_m, z_m);
-    for (int j = 0; j + 1 < nodes.rows(); ++j)
-        for (int i = 0; i + 1 < nodes.cols(); ++i) fill_quad(nodes, i, j, lookup);
+    for (int first = 0, end = 0; first < lines; first = end) {
+        end = scans.end_of_scan(first, lines);
+        if (end - first < 2) continue;  // a single line of a cut sweep has no neighbour
+        const auto from = static_cast<std::size_t>(first) * static_cast<std::size_t>(samples);
+        const auto count = static_cast<std::size_t>(end - first) * static_cast<std::size_t>(samples);
+        const NodeGrid nodes(grid, samples, end - first, x_m.subspan(from, count), y_m.subspan(from, count),
+                             z_m.subspan(from, count));
+        for (int j = 0; j + 1 < nodes.rows(); ++j)
+            for (int i = 0; i + 1 < nodes.cols(); ++i) fill_quad(nodes, first, i, j, lookup);
+    }
     std::replace(lookup.ground_z_m.begin(), lookup.ground_z_m.end(), kNothing, kNoData);
     return lookup;
 }

@@ -24,22 +24,23 @@ using scenario::Scenario;
 std::string subject(const Acquisition& a) { return fmt::format("acquisition '{}'", a.id); }
 
 /// Map place the platform is over.
-std::array<double, 2> place(const Acquisition& acquisition, const SceneInputs& in, const fire::FireState& state,
+std::array<double, 2> place(const Acquisition& acquisition, const SceneInputs& in, const fire::FireState* state,
                             const gis::MapProjection& map) {
     const auto& p = acquisition.platform;
     if (p.map_xy_m) return *p.map_xy_m;
     if (p.lat_lon_deg) return map.to_map((*p.lat_lon_deg)[0], (*p.lat_lon_deg)[1]);
-    if (!p.over_fire) return {in.origin_m.x, in.origin_m.y};
+    if (!p.over_fire || state == nullptr) return {in.origin_m.x, in.origin_m.y};
     double x = 0.0, y = 0.0, n = 0.0;
     for (int row = 0; row < in.grid.rows; ++row)
         for (int col = 0; col < in.grid.cols; ++col)
-            if (state.cell_class.at(row, col) == static_cast<std::uint8_t>(fire::CellClass::Front)) {
+            if (state->cell_class.at(row, col) == static_cast<std::uint8_t>(fire::CellClass::Front)) {
                 x += in.grid.x_centre_m(col);
                 y += in.grid.y_centre_m(row);
                 n += 1.0;
             }
     if (n == 0.0)
-        throw input_error(subject(acquisition), fmt::format("platform.over: fire, but nothing burns at {} s", state.time_s));
+        throw input_error(subject(acquisition),
+                          fmt::format("platform.over: fire, but nothing burns at {} s", state->time_s));
     return {x / n, y / n};
 }
 
@@ -67,7 +68,7 @@ void check_table_covers(const std::filesystem::path& file, const radiometry::Atm
 
 }  // namespace
 
-sensors::Pose resolve_pose(const Acquisition& acquisition, const SceneInputs& in, const fire::FireState& state) {
+sensors::Pose resolve_pose(const Acquisition& acquisition, const SceneInputs& in, const fire::FireState* state) {
     const gis::MapProjection map(in.grid.crs_wkt);
     const auto [x, y] = place(acquisition, in, state, map);
     const auto& p = acquisition.platform;
@@ -107,9 +108,6 @@ std::vector<int> wanted_bands(const Acquisition& acquisition, const sensors::Sen
 }
 
 std::vector<std::string> wanted_groups(const Acquisition& acquisition, const sensors::Sensor& sensor) {
-    if (sensor.scan != sensors::ScanType::Framing)
-        throw input_error(subject(acquisition),
-                          fmt::format("sensor '{}' is no framing camera; only framing cameras can be rendered", sensor.id));
     for (const auto& id : acquisition.bands)
         if (sensor.band_index(id) < 0) {
             std::vector<std::string> ids;

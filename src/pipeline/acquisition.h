@@ -10,21 +10,27 @@
 #include "radiometry/sun.h"
 #include "radiometry/view_atmosphere.h"
 #include "render/scene.h"
-#include "sensors/framing.h"
+#include "sensors/image_chords.h"
 
 namespace pyroscene::pipeline {
 
 /// Pose of an acquisition's platform, from its place over the map and the terrain (or the fire) below.
 /// Throws an input error: place outside the map, altitude below the terrain.
 sensors::Pose resolve_pose(const scenario::Acquisition& acquisition, const SceneInputs& inputs,
-                           const fire::FireState& state);
+                           const fire::FireState* state);
+
+/// Pixels, path and times of one camera group's image: a frame, a flight line, a pass of a satellite, or a flown trajectory.
+/// \param state  for `over: fire`; null puts the platform over the centre (to judge sizes before there is a fire)
+/// Throws an input error: no orbit or speed for what is asked, a scene outside the swath.
+sensors::ImageGeometry resolve_geometry(const scenario::Acquisition& acquisition, const SceneInputs& inputs,
+                                        const fire::FireState* state, const sensors::Sensor& sensor,
+                                        const sensors::CameraGroup& group);
 
 /// Bands of one camera group that the acquisition asks for, as positions in Sensor::bands. May be empty.
 std::vector<int> wanted_bands(const scenario::Acquisition& acquisition, const sensors::Sensor& sensor,
                               const std::string& group);
 
-/// Groups of the sensor that the acquisition asks for and that have wanted bands. Throws an input error for unknown names and
-/// for scan types without geometry.
+/// Groups of the sensor that the acquisition asks for and that have wanted bands. Throws an input error for unknown names.
 std::vector<std::string> wanted_groups(const scenario::Acquisition& acquisition, const sensors::Sensor& sensor);
 
 /// The fire as a camera sees it at one moment, free of any sensor.

@@ -59,14 +59,15 @@ std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const 
         const bool point =
             sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;
         const double rays_per_pixel = point ? 1.0 : s.render.samples_per_axis * s.render.samples_per_axis;
-        const double pixels = static_cast<double>(group.samples) * group.lines, n = grid.size();
+        const auto geometry = resolve_geometry(a, in, nullptr, sensor, group);
+        const double pixels = static_cast<double>(geometry.samples) * geometry.lines, n = grid.size();
         seconds += pixels * (rays_per_pixel * (kRay_s + kRayWavelength_s * n) + kPixelWavelength_s * n);
         // Radiance, terms and truth in memory once, and once more while they are written.
         const double megabytes = 2.0 * pixels * 4.0 * (static_cast<double>(responses.size()) * 11.0 + 16.0) / 1e6;
         out += fmt::format(
             "  {}: {} group {}, {} x {} pixels, {} bands on {} transport wavelengths, {:.0f} rays per pixel, "
             "fire state of {:g} s, about {:.0f} MB\n",
-            a.id, sensor.id, id, group.samples, group.lines, responses.size(), grid.size(), rays_per_pixel,
+            a.id, sensor.id, id, geometry.samples, geometry.lines, responses.size(), grid.size(), rays_per_pixel,
             in.frames[frame].time_s, megabytes);
     }
     return out;

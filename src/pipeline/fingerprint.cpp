@@ -120,6 +120,9 @@ std::string Fingerprints::image(const scenario::Acquisition& a) const {
         fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", a.id, a.time_s, p.over_centre, p.over_fire, p.altitude_agl_m.value_or(-1.0),
                     p.altitude_m.value_or(-1e9), fmt::join(a.groups, ","), fmt::join(a.bands, ","));
     pose += fmt::format("|{}|{}|{}", p.heading_deg, p.pitch_deg, p.roll_deg);
+    pose +=
+        fmt::format("|{}|{}|{}|{}|{}|{}|{}", p.ground_speed_m_s.value_or(-1.0), static_cast<int>(p.pass), p.scan_angle_deg,
+                    p.trajectory ? sha256_of_file(*p.trajectory) : "", a.view, a.whole_lines, a.lines.value_or(0));
     if (p.map_xy_m) pose += fmt::format("|{}", fmt::join(*p.map_xy_m, ","));
     if (p.lat_lon_deg) pose += fmt::format("|{}", fmt::join(*p.lat_lon_deg, ","));
     return sha256(base_ + fire_text(scenario_) + scene_text(scenario_) + plume_text(scenario_) + sensor_text(a.sensor) +

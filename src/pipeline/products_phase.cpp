@@ -35,6 +35,7 @@ struct Rendered {
     std::vector<double> x_m, y_m;
     double gsd_m = 0.0;
     std::vector<float> pixel_area_m2;
+    analysis::ScanLines scans;
 
     [[nodiscard]] std::span<const double> where(GeolocationPlane p) const {
         return std::span(geolocation.pixels).subspan(p * n, n);
@@ -59,7 +60,8 @@ void measure_pixels(Rendered& r) {
                 return static_cast<std::size_t>(l) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(s);
             };
             const int s0 = std::max(sample - 1, 0), s1 = std::min(sample + 1, r.samples - 1);
-            const int l0 = std::max(line - 1, 0), l1 = std::min(line + 1, r.lines - 1);
+            const int end = r.scans.end_of_scan(line, r.lines), before = std::max(line - 1, 0);
+            const int l0 = r.scans.end_of_scan(before, r.lines) == end ? before : line, l1 = std::min(line + 1, end - 1);
             if (s1 == s0 || l1 == l0) continue;
             const std::size_t a = at(s0, line), b = at(s1, line), c = at(sample, l0), d = at(sample, l1);
             const double ux = (r.x_m[b] - r.x_m[a]) / (s1 - s0), uy = (r.y_m[b] - r.y_m[a]) / (s1 - s0);
@@ -86,6 +88,11 @@ Rendered read_rendered(const ProductJob& job) {
     r.x_m.assign(r.where(kLongitude).begin(), r.where(kLongitude).end());
     r.y_m.assign(r.where(kLatitude).begin(), r.where(kLatitude).end());
     gis::MapProjection(job.inputs.grid.crs_wkt).to_map(r.x_m, r.y_m);
+    const auto number = [&](const char* key) {
+        const auto found = r.radiance.metadata.find(key);
+        return found == r.radiance.metadata.end() ? 0 : std::stoi(found->second);
+    };
+    r.scans = {number("LINES_PER_SCAN"), number("FIRST_LINE_OF_SCAN")};
     measure_pixels(r);
     return r;
 }
@@ -172,7 +179,7 @@ void write_ortho(const ProductJob& job, const Rendered& r, const Product& produc
 
 /// Where each map cell appears in the image; cells that terrain hides from the camera appear nowhere.
 analysis::OrthoLookup visible_ground(const ProductJob& job, const Rendered& r, const MapGrid& grid, RunReport& report) {
-    auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight));
+    auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight), r.scans);
     // Heights between two pixels differ from the terrain by less than a pixel on any slope a camera sees, and the facets of the
     // mesh differ from a bilinear surface by a fraction of a terrain cell where it is rough.
     const double tolerance_m = 1.5 * r.gsd_m + 0.2 * job.inputs.grid.cell_m + 1.0;

@@ -9,12 +9,16 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "gis/raster_output.h"
+#include "pipeline/sensor_json.h"
 #include "sensors/detector.h"
 
 namespace pyroscene::pipeline {
 namespace {
 
 using render::RadianceImage;
+
+/// A ray far beside every scene, for pixels that the instrument does not send.
+constexpr render::SceneRay kNowhere{{1e7, 1e7, 1e4}, {1e7, 1e7, 0.0}};
 
 /// Sun angles over the scene: exact at the centre, linear in latitude and longitude around it (a few km: < 0.001 deg).
 class LocalSun {
@@ -68,16 +72,18 @@ constexpr std::array<std::array<const char*, 2>, 9> kGeolocationBands{{{"longitu
                                                                        {"range", "m"},
                                                                        {"time", "s"}}};
 
-std::vector<double> geolocate(const RadianceImage& image, const sensors::FrameChords& chords, const LocalSun& sun,
-                              double time_s) {
+std::vector<double> geolocate(const RadianceImage& image, const sensors::ImageGeometry& geometry,
+                              const sensors::ImageChords& chords, const LocalSun& sun) {
     const std::size_t n = static_cast<std::size_t>(image.samples) * static_cast<std::size_t>(image.lines);
     std::vector<double> planes(n * kGeolocationBands.size(), std::nan(""));
     tbb::parallel_for(0, image.lines, [&](int line) {
+        const auto scan = chords.scan(sensors::scan_position_of(geometry, 0, line).scan);
         for (int sample = 0; sample < image.samples; ++sample) {
             const std::size_t i =
                 static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
             if (!(image.coverage[i] > 0.0F)) continue;
-            const auto chord = chords.at(sample + 0.5, line + 0.5);
+            const auto position = sensors::scan_position_of(geometry, sample, line);
+            const auto chord = scan.at(position.u, position.v);
             const double f = (chord.top_m.z - image.hit_z_m[i]) / (chord.top_m.z - chord.bottom_m.z);
             const double lon = std::lerp(chord.top_lon_deg, chord.bottom_lon_deg, f);
             const double lat = std::lerp(chord.top_lat_deg, chord.bottom_lat_deg, f);
@@ -90,7 +96,7 @@ std::vector<double> geolocate(const RadianceImage& image, const sensors::FrameCh
                                      sun.zenith_rad(lat, lon) / kDegree_rad,
                                      positive_degrees(sun.azimuth_rad(lat, lon)),
                                      std::lerp(chord.top_range_m, chord.bottom_range_m, f),
-                                     time_s};
+                                     sensors::pixel_time_s(geometry, sample, line)};
             for (std::size_t b = 0; b < std::size(values); ++b) planes[b * n + i] = values[b];
         }
     });
@@ -109,13 +115,34 @@ std::vector<gis::GroundControlPoint> control_points(const RadianceImage& image, 
             if (!std::isnan(planes[i]))
                 points.push_back({sample + 0.5, line + 0.5, planes[i], planes[n + i], planes[2 * n + i]});
         }
+    // A scene that fills a corner of the image may lie between them: then its own pixels, evenly.
+    constexpr std::size_t kFewest = 4, kMost = 64;
+    if (points.size() >= kFewest) return points;
+    std::vector<std::size_t> seen;
+    for (std::size_t i = 0; i < n; ++i)
+        if (!std::isnan(planes[i])) seen.push_back(i);
+    points.clear();
+    const auto samples = static_cast<std::size_t>(image.samples);
+    for (std::size_t k = 0; k < seen.size(); k += std::max<std::size_t>(1, seen.size() / kMost)) {
+        const std::size_t i = seen[k];
+        points.push_back({static_cast<double>(i % samples) + 0.5, static_cast<double>(i / samples) + 0.5, planes[i],
+                          planes[n + i], planes[2 * n + i]});
+    }
     return points;
 }
 
 std::map<std::string, std::string> common_metadata(const GroupJob& job) {
-    const auto& pose = job.pose;
+    const auto pose = job.geometry.path.at(0.0);
     const auto& group = job.group;
+    const auto& scan = job.geometry.scan;
+    const auto place_in_scan = sensors::scan_position_of(job.geometry, 0, 0);
+    const bool lines_of_scans = scan.kind != sensors::ScanLaw::Kind::Frame && scan.kind != sensors::ScanLaw::Kind::Disk;
     return {{"FINGERPRINT", job.fingerprint},
+            {"SCAN_TYPE", scan_type_name(job.sensor.scan)},
+            {"FIRST_SAMPLE", fmt::format("{}", job.geometry.first_sample)},
+            {"FIRST_LINE", fmt::format("{}", job.geometry.first_line)},
+            {"LINES_PER_SCAN", fmt::format("{}", lines_of_scans ? scan.lines_per_scan : job.geometry.lines)},
+            {"FIRST_LINE_OF_SCAN", fmt::format("{}", lines_of_scans ? static_cast<int>(std::floor(place_in_scan.v)) : 0)},
             {"SCENARIO", job.scenario.name},
             {"ACQUISITION", job.acquisition.id},
             {"SENSOR", job.sensor.id},
@@ -134,8 +161,8 @@ std::map<std::string, std::string> common_metadata(const GroupJob& job) {
 
 gis::OutputRaster sensor_raster(const GroupJob& job, const std::vector<gis::GroundControlPoint>& points) {
     gis::OutputRaster out;
-    out.cols = job.group.samples;
-    out.rows = job.group.lines;
+    out.cols = job.geometry.samples;
+    out.rows = job.geometry.lines;
     out.geolocation = job.files.geolocation();
     out.control_points = points;
     out.metadata = common_metadata(job);
@@ -269,11 +296,11 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
 
     std::vector<Spectrum> responses;
     for (const int b : job.bands) responses.push_back(job.sensor.bands[static_cast<std::size_t>(b)].response);
-    const double sensor_agl_m = std::max(1.0, job.pose.position.h_m - in.mean_height_m);
+    const double sensor_agl_m = std::max(1.0, job.geometry.path.at(0.0).position.h_m - in.mean_height_m);
     const auto spectral = make_spectral_scene(scenario, in, job.fire, responses, sensor_agl_m, sun.centre(), report);
 
     const double flame_top_m = std::max(job.fire.flame.z_range_m()[1], job.fire.plume.z_range_m()[1]);
-    const sensors::FrameChords chords(job.sensor, job.group, job.pose, map, in.origin_m, in.lowest_m - 10.0,
+    const sensors::ImageChords chords(job.geometry, map, in.origin_m, in.lowest_m - 10.0,
                                       std::max(in.highest_m, flame_top_m) + 10.0);
 
     render::RenderScene scene;
@@ -296,21 +323,27 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     const auto pattern = sensors::pixel_samples(job.sensor.psf_across, job.sensor.psf_along,
                                                 point_sampled ? 1 : scenario.render.samples_per_axis);
     render::ImageRequest request;
-    request.samples = job.group.samples;
-    request.lines = job.group.lines;
+    request.samples = job.geometry.samples;
+    request.lines = job.geometry.lines;
     request.rays_per_pixel = static_cast<int>(pattern.weight.size());
     request.ray_weight = pattern.weight;
     request.rays = [&](int line, int begin, int end, std::span<render::SceneRay> out) {
+        const auto scan = chords.scan(sensors::scan_position_of(job.geometry, begin, line).scan);
         std::size_t k = 0;
-        for (int sample = begin; sample < end; ++sample)
+        for (int sample = begin; sample < end; ++sample) {
+            const bool deleted = sensors::pixel_deleted(job.geometry, sample, line);
+            const auto centre = sensors::scan_position_of(job.geometry, sample, line);
+            const double width = sensors::scan_pixel_width(job.geometry.scan, job.geometry.first_sample + sample);
             for (const auto& [dx, dy] : pattern.offset) {
-                const auto ends = chords.ends(sample + 0.5 + dx, line + 0.5 + dy);
-                out[k++] = {ends.top_m, ends.bottom_m};
+                const auto ends = scan.ends(centre.u + dx * width, centre.v + dy);
+                out[k++] = deleted ? kNowhere : render::SceneRay{ends.top_m, ends.bottom_m};
             }
+        }
     };
     const double sun_azimuth_rad = sun.centre().azimuth_rad;
     request.view = [&](int line, int sample, Vec3) {
-        const Vec3 v = chords.at(sample + 0.5, line + 0.5).view_enu;
+        const auto position = sensors::scan_position_of(job.geometry, sample, line);
+        const Vec3 v = chords.scan(position.scan).at(position.u, position.v).view_enu;
         const double line_of_sight_rad = std::atan2(v.x, v.y) + kPi;
         return render::PixelView{std::atan2(std::hypot(v.x, v.y), v.z),
                                  std::remainder(sun_azimuth_rad - line_of_sight_rad, 2.0 * kPi)};
@@ -325,7 +358,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     report_image(job, image, scene, report);
 
     const PhaseTimer timer(report, "render/write");
-    const auto planes = geolocate(image, chords, sun, job.acquisition.time_s);
+    const auto planes = geolocate(image, job.geometry, chords, sun);
     const auto points = control_points(image, planes);
     if (points.empty())
         throw input_error(fmt::format("acquisition '{}'", job.acquisition.id), "the camera does not see the map at all");

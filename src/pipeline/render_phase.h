@@ -18,7 +18,7 @@ struct GroupJob {
     const sensors::Sensor& sensor;
     const sensors::CameraGroup& group;
     std::vector<int> bands;  ///< positions in sensor.bands
-    sensors::Pose pose;
+    sensors::ImageGeometry geometry;
     AcquisitionFiles files;
     std::string fingerprint;
 };

@@ -198,7 +198,7 @@ void render_acquisition(Session& s, const Acquisition& acquisition, std::optiona
                            sensor,
                            sensor.group(id),
                            wanted_bands(acquisition, sensor, id),
-                           resolve_pose(acquisition, s.inputs, *state),
+                           resolve_geometry(acquisition, s.inputs, &*state, sensor, sensor.group(id)),
                            files,
                            fingerprint};
         render_group(job, s.monitor("render " + acquisition.id), s.report);

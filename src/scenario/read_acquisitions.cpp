@@ -61,15 +61,37 @@ void read_place(const config::Node& over, Platform& platform) {
     over.finish();
 }
 
-Platform read_platform(const config::Node& node) {
+/// Orbit or measured path, relative file names from the folder of the scenario.
+void read_path(const config::Node& node, const fs::path& folder, Platform& platform) {
+    const std::string pass = node.choice("pass", "", {"ascending", "descending", "geostationary"});
+    platform.pass = pass == "ascending"       ? Platform::Pass::Ascending
+                    : pass == "descending"    ? Platform::Pass::Descending
+                    : pass == "geostationary" ? Platform::Pass::Geostationary
+                                              : Platform::Pass::None;
+    platform.scan_angle_deg = node.number("scan_angle_deg", 0.0, Range::between(-90.0, 90.0));
+    if (node.is_map() && node.has("scan_angle_deg") && !node.has("pass"))
+        node.child("scan_angle_deg").report("says where in a 'pass' the place is seen; a flight line starts over it");
+    if (const config::Node file = node.child("trajectory"); file.present())
+        platform.trajectory = read_file_name(file, folder);
+    if (node.is_map() && node.has("trajectory") && (node.has("pass") || node.has("over")))
+        node.child("trajectory").report("says where the platform is; leave 'pass' and 'over' out");
+}
+
+Platform read_platform(const config::Node& node, const fs::path& folder) {
     Platform platform;
     if (!node.present()) return platform;
     read_place(node.child("over"), platform);
     platform.altitude_agl_m = node.optional_number("altitude_agl_m", Range{0.0, 5e7, true});
     platform.altitude_m = node.optional_number("altitude_m", Range::between(-500.0, 5e7));
-    if (node.is_map() && node.has("altitude_agl_m") == node.has("altitude_m"))
+    platform.ground_speed_m_s = node.optional_number("ground_speed_m_s", Range{0.0, 2e4, true});
+    read_path(node, folder, platform);
+    const bool elsewhere = node.is_map() && (node.has("pass") || node.has("trajectory"));
+    if (node.is_map() && !elsewhere && node.has("altitude_agl_m") == node.has("altitude_m"))
         node.report(node.has("altitude_m") ? "give 'altitude_agl_m' or 'altitude_m', not both"
                                            : "key 'altitude_agl_m' (above the terrain) or 'altitude_m' is missing");
+    if (elsewhere &&
+        (node.has("altitude_agl_m") || node.has("altitude_m") || node.has("heading_deg") || node.has("ground_speed_m_s")))
+        node.report("'pass' and 'trajectory' bring height, heading and speed with them; leave those keys out");
     platform.heading_deg = node.number("heading_deg", 0.0, Range::between(-360.0, 360.0));
     platform.pitch_deg = node.number("pitch_deg", 0.0, Range::between(-90.0, 90.0));
     platform.roll_deg = node.number("roll_deg", 0.0, Range::between(-180.0, 180.0));
@@ -93,9 +115,13 @@ Acquisition read_acquisition(const config::Node& node, const fs::path& folder) {
     acquisition.id = read_id(node.required_child("id"));
     acquisition.sensor = read_sensor(node.required_child("sensor"), folder);
     acquisition.time_s = node.required_child("time_s").as_number(0.0, Range::between(0.0, 1e8));
-    acquisition.platform = read_platform(node.required_child("platform"));
+    acquisition.platform = read_platform(node.required_child("platform"), folder);
     acquisition.groups = read_words(node.child("groups"));
     acquisition.bands = read_words(node.child("bands"));
+    acquisition.view = node.text("view", "");
+    acquisition.whole_lines = node.choice("samples", "scene", {"scene", "all"}) == "all";
+    if (const config::Node lines = node.child("lines"); lines.present())
+        acquisition.lines = static_cast<int>(lines.as_integer(1, Range::between(2, 100000)));
     node.finish();
     return acquisition;
 }

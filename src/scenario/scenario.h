@@ -113,6 +113,10 @@ struct Platform {
     bool over_fire = false;                            ///< over: fire - centroid of the burning cells at that time
     std::optional<double> altitude_agl_m, altitude_m;  ///< above the terrain below / above the ellipsoid
     double heading_deg = 0.0, pitch_deg = 0.0, roll_deg = 0.0;
+    std::optional<double> ground_speed_m_s;  ///< of a flight line; default: the sensor file's
+    enum class Pass { None, Ascending, Descending, Geostationary } pass = Pass::None;  ///< orbit of the sensor file
+    double scan_angle_deg = 0.0;                      ///< pass: where in the scan `over` is seen, positive to the right
+    std::optional<std::filesystem::path> trajectory;  ///< CSV of poses, instead of all else
 };
 
 struct Acquisition {
@@ -121,6 +125,9 @@ struct Acquisition {
     Platform platform;
     std::vector<std::string> groups;  ///< camera groups; empty = all
     std::vector<std::string> bands;   ///< empty = all
+    std::string view;                 ///< of a conical scanner; empty = its first
+    bool whole_lines = false;         ///< scanners: whole lines instead of the part that sees the map
+    std::optional<int> lines;         ///< scanners: as many, around the place; default: those that see the map
     int line = 0;
 };
 

@@ -288,7 +288,8 @@ constexpr const char* kSchema = R"json({
           "platform": {
             "type": "object",
             "additionalProperties": false,
-            "oneOf": [{"required": ["altitude_agl_m"]}, {"required": ["altitude_m"]}],
+            "oneOf": [{"required": ["altitude_agl_m"]}, {"required": ["altitude_m"]}, {"required": ["pass"]},
+              {"required": ["trajectory"]}],
             "properties": {
               "over": {
                 "default": "centre",
@@ -305,11 +306,23 @@ constexpr const char* kSchema = R"json({
               "altitude_m": {"type": "number", "minimum": -500, "maximum": 5e7},
               "heading_deg": {"type": "number", "minimum": -360, "maximum": 360, "default": 0},
               "pitch_deg": {"type": "number", "minimum": -90, "maximum": 90, "default": 0},
-              "roll_deg": {"type": "number", "minimum": -180, "maximum": 180, "default": 0}
+              "roll_deg": {"type": "number", "minimum": -180, "maximum": 180, "default": 0},
+              "ground_speed_m_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 20000,
+                "description": "of a flight line; default: the sensor file's"},
+              "pass": {"enum": ["ascending", "descending", "geostationary"],
+                "description": "on the orbit of the sensor file, instead of an altitude"},
+              "scan_angle_deg": {"type": "number", "minimum": -90, "maximum": 90, "default": 0,
+                "description": "where in the scan of a pass the place is seen, positive to the right"},
+              "trajectory": {"type": "string", "description": "CSV of poses, instead of place and altitude"}
             }
           },
           "groups": {"$ref": "#/$defs/words", "description": "camera groups of the sensor; default: all"},
-          "bands": {"$ref": "#/$defs/words", "description": "bands of the sensor; default: all"}
+          "bands": {"$ref": "#/$defs/words", "description": "bands of the sensor; default: all"},
+          "view": {"type": "string", "description": "of a conical scanner: nadir, forward, oblique"},
+          "samples": {"enum": ["scene", "all"], "default": "scene",
+            "description": "scanners: the part of each line that sees the map, or whole lines"},
+          "lines": {"type": "integer", "minimum": 2, "maximum": 100000,
+            "description": "scanners: how many; default: those that see the map"}
         }
       }
     },

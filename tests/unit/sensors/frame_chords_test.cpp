@@ -112,8 +112,8 @@ TEST(FrameChords, StartAtAPlatformBelowTheUpperShell) {
 std::string message_of(const View& view) {
     const Sensor wasp = load_sensor("wasp");
     try {
-        static_cast<void>(frame(wasp, wasp.group("ir"), pose_of(view), gis::MapProjection(view.crs), {}, view.bottom_m,
-                                view.top_m));
+        static_cast<void>(
+            frame(wasp, wasp.group("ir"), pose_of(view), gis::MapProjection(view.crs), {}, view.bottom_m, view.top_m));
     } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::Input);
         return e.what();

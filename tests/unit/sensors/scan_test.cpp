@@ -86,7 +86,8 @@ TEST(ScanLaw, SwathsOfSatellites) {
         SCOPED_TRACE(id);
         const Sensor sensor = load_sensor(id);
         const ScanLaw& law = sensor.group(group).scan;
-        const auto right = footprint(law, sensor.orbit->height_m, law.positions, 1), left = footprint(law, sensor.orbit->height_m, 0, 1);
+        const auto right = footprint(law, sensor.orbit->height_m, law.positions, 1),
+                   left = footprint(law, sensor.orbit->height_m, 0, 1);
         EXPECT_NEAR((right.from_nadir_m + left.from_nadir_m) / 1e3, swath_km, tolerance_km);
     }
     const Sensor avhrr = load_sensor("avhrr3-noaa18");
@@ -105,8 +106,8 @@ TEST(ScanLaw, AirborneScannersOverFlatGround) {
     const auto nadir = footprint(whisk, 20e3, 338.5, 1, 1e-3);
     EXPECT_NEAR(nadir.along_m, 20.0, 0.01);
     EXPECT_NEAR(nadir.across_m, 20.0, 0.01);
-    EXPECT_NEAR(footprint(whisk, 20e3, 338.5, 1).across_m, 17.4, 0.01);                   // sample spacing
-    EXPECT_NEAR(2.0 * footprint(whisk, 20e3, 0.0, 1).from_nadir_m, 12.1e3, 50.0);         // 677 samples
+    EXPECT_NEAR(footprint(whisk, 20e3, 338.5, 1).across_m, 17.4, 0.01);                      // sample spacing
+    EXPECT_NEAR(2.0 * footprint(whisk, 20e3, 0.0, 1).from_nadir_m, 12.1e3, 50.0);            // 677 samples
     EXPECT_NEAR(2.0 * footprint(whisk, 20e3, 338.5 - 307.0, 1).from_nadir_m, 10.9e3, 50.0);  // 614 samples
     EXPECT_NEAR(205.0 * resolved_scan(aviris, aviris.group("all"), "", 20e3, 205.0).period_s, 17.1, 0.05);
 
@@ -196,8 +197,12 @@ TEST(ScanLaw, ViirsZonesAndDeletedRows) {
 }
 
 TEST(ScanLaw, ARotatingMirrorTurnsTheFocalPlane) {
-    ScanLaw law{.kind = ScanLaw::Kind::Mirror, .positions = 100, .lines_per_scan = 3, .step_across_rad = 0.02,
-                .step_along_rad = 0.01, .image_rotates = true};
+    ScanLaw law{.kind = ScanLaw::Kind::Mirror,
+                .positions = 100,
+                .lines_per_scan = 3,
+                .step_across_rad = 0.02,
+                .step_along_rad = 0.01,
+                .image_rotates = true};
     // Section 2.3: tau' = tau cos s, eta' = -tau sin s.
     const double s = 0.02 * 30.0, tau = 0.01;
     const Vec3 expected = mirror_direction(s - tau * std::sin(s), tau * std::cos(s));
@@ -248,7 +253,8 @@ TEST(ScanLaw, ConesPassThroughNadirAndLookAheadOrBack) {
 }
 
 TEST(ScanLaw, FixedGridsAgreeWithTheGeostationaryProjection) {
-    for (const auto& [id, sweep, longitude] : {std::tuple{"abi-goes16", "x", -75.2}, std::tuple{"ahi-himawari8", "y", 140.7}}) {
+    for (const auto& [id, sweep, longitude] :
+         {std::tuple{"abi-goes16", "x", -75.2}, std::tuple{"ahi-himawari8", "y", 140.7}}) {
         SCOPED_TRACE(id);
         const Sensor sensor = load_sensor(id);
         const ScanLaw& law = sensor.group("2km").scan;
@@ -276,7 +282,7 @@ TEST(ScanLaw, SpinScanStepsSouth) {
     EXPECT_NEAR(std::asin(north.x), 1250 * 0.14e-3, 1e-9);
     EXPECT_NEAR(std::atan2(east.y, east.z), 1145.5 * 0.0957e-3, 1e-9);
     EXPECT_NEAR(scan_time_s(ir, 0, 1145.5, 1251) - scan_time_s(ir, 0, 1145.5, 1250), 0.6, 1e-9);  // 100 turns a minute
-    EXPECT_NEAR(gms.group("vis").scan.step_along_rad, 0.035e-3, 1e-9);                             // four lines a turn
+    EXPECT_NEAR(gms.group("vis").scan.step_along_rad, 0.035e-3, 1e-9);                            // four lines a turn
 }
 
 }  // namespace
