@@ -70,7 +70,10 @@ TEST(Export, ExitCodes) {
     EXPECT_EQ(code("--format csv --time_s -5"), 3);
     EXPECT_EQ(code("--format csv --time_s 3714 --layers 1"), 3);
     EXPECT_FALSE(std::filesystem::exists(scratch / "x.csv"));
-    EXPECT_EQ(code("--format side-view --time_s 3714 --layers 1 --above-ground"), 0);
+    EXPECT_EQ(code("--format side-view --time_s 3714 --layers 1 --above-ground"), 1);  // no picture has this ending
+    const auto picture = pyroscene_cli("export " + thesis_scene() + " -o " + (scratch / "x.png").string() +
+                                       " --format side-view --time_s 3714 --layers 1 --above-ground");
+    EXPECT_EQ(picture.exit_code, 0) << picture.output;
 }
 
 // 3714 s: cells above 1000 W m-2 as README.md of the scenario counts them (1453), in connected pieces.
