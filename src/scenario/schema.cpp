@@ -311,7 +311,7 @@ constexpr const char* kSchema = R"json({
                 "description": "of a flight line; default: the sensor file's"},
               "pass": {"enum": ["ascending", "descending", "geostationary"],
                 "description": "on the orbit of the sensor file, instead of an altitude"},
-              "scan_angle_deg": {"type": "number", "minimum": -90, "maximum": 90, "default": 0,
+              "scan_angle_deg": {"type": "number", "minimum": -90, "maximum": 90,
                 "description": "where in the scan of a pass the place is seen, positive to the right"},
               "trajectory": {"type": "string", "description": "CSV of poses, instead of place and altitude"}
             }

@@ -61,7 +61,7 @@ TEST(Acquisitions, PlatformIsChecked) {
     EXPECT_EQ(said("{altitude_m: 1, pitch_deg: 91}"), Lines{at + ".pitch_deg: must be between -90 and 90, found 91"});
     EXPECT_EQ(said("{altitude_m: 1, heading: 9}"),
               Lines{at + ": unknown key 'heading'; known here: altitude_agl_m, altitude_m, "
-                         "heading_deg, over, pitch_deg, roll_deg"});
+                         "ground_speed_m_s, heading_deg, over, pass, pitch_deg, roll_deg, scan_angle_deg, trajectory"});
     EXPECT_EQ(said("3000"), Lines{at + ": expected a map of keys, found '3000'"});
     const std::string place = at + ".over: expected {x_m, y_m} or {lat_deg, lon_deg}";
     EXPECT_EQ(said("{altitude_m: 1, over: {x_m: 1}}"), Lines{place});

@@ -170,11 +170,12 @@ TEST_F(Schema, DefaultsAreThoseOfLoad) {
         SCOPED_TRACE(key.path);
         const std::string value =
             scalar != key.facts.end() ? scalar->second : fmt::format("[{}]", fmt::join(key.default_list, ", "));
-        const std::string platform = "acquisitions[].platform.";
-        const std::string text =
-            key.path.starts_with(platform)
-                ? with_platform("{altitude_m: 3000, " + key.path.substr(platform.size()) + ": " + value + "}")
-                : shortest(as_yaml(key.path, value) + "\n");
+        const std::string platform = "acquisitions[].platform.", acquisition = "acquisitions[].";
+        const auto said = [&](const std::string& prefix) { return key.path.substr(prefix.size()) + ": " + value; };
+        const std::string text = key.path.starts_with(platform) ? with_platform("{altitude_m: 3000, " + said(platform) + "}")
+                                 : key.path.starts_with(acquisition)
+                                     ? with_platform("{altitude_m: 3000}, " + said(acquisition))
+                                     : shortest(as_yaml(key.path, value) + "\n");
         EXPECT_EQ(describe_all(folder.load(text)), without);
         ++checked;
     }
