@@ -80,7 +80,10 @@ double line_absorption_per_m(const AlkaliLine& line, double lambda_um, double T_
 double doublet_absorption_per_m(std::span<const AlkaliLine> lines, double lambda_um, double T_K, double mole_fraction,
                                 double pressure_atm) noexcept {
     double sum = 0.0;
-    for (const auto& line : lines) sum += line_absorption_per_m(line, lambda_um, T_K, mole_fraction, pressure_atm);
+    for (const auto& line : lines) {
+        if (std::abs(lambda_um - line.wavelength_um) < kAlkaliReach_um)
+            sum += line_absorption_per_m(line, lambda_um, T_K, mole_fraction, pressure_atm);
+    }
     return sum;
 }
 
@@ -110,13 +113,12 @@ std::vector<double> doublet_wavelengths_um(std::span<const AlkaliLine> lines, do
 
 double equivalent_width_um(std::span<const AlkaliLine> lines, double x_path_m, double T_K, double pressure_atm) {
     if (lines.empty() || !(x_path_m > 0.0)) return 0.0;
-    constexpr double kReach_um = 0.03;
     double first = lines.front().wavelength_um, last = first;
     for (const auto& line : lines) {
         first = std::min(first, line.wavelength_um);
         last = std::max(last, line.wavelength_um);
     }
-    const auto x = doublet_wavelengths_um(lines, first - kReach_um, last + kReach_um);
+    const auto x = doublet_wavelengths_um(lines, first - kAlkaliReach_um, last + kAlkaliReach_um);
     double sum = 0.0, before = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double absorbed = -std::expm1(-doublet_absorption_per_m(lines, x[i], T_K, x_path_m, pressure_atm));

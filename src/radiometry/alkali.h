@@ -9,6 +9,9 @@
 
 namespace pyroscene::radiometry {
 
+/// Farther than this from its centre [um] a line absorbs nothing: a Lorentz wing is not to be trusted there.
+inline constexpr double kAlkaliReach_um = 0.03;
+
 /// A resonance line of neutral alkali atoms.
 struct AlkaliLine {
     double wavelength_um = 0.0;  ///< vacuum
@@ -39,6 +42,7 @@ LineWidths line_widths(const AlkaliLine& line, double T_K, double pressure_atm) 
 /// \param mole_fraction  free atoms per molecule (1 ppm = 1e-6)
 double line_absorption_per_m(const AlkaliLine& line, double lambda_um, double T_K, double mole_fraction,
                              double pressure_atm) noexcept;
+/// Sum over lines, each as far as kAlkaliReach_um.
 double doublet_absorption_per_m(std::span<const AlkaliLine> lines, double lambda_um, double T_K, double mole_fraction,
                                 double pressure_atm) noexcept;
 
@@ -49,8 +53,8 @@ double alkali_absorption_per_m(const AlkaliLines& lines, double lambda_um, doubl
 /// trapezium rule over them integrates functions of k to about 1e-4. Ascending, with both limits.
 std::vector<double> doublet_wavelengths_um(std::span<const AlkaliLine> lines, double lower_um, double upper_um);
 
-/// Equivalent width W = int (1 - exp(-k L)) d lambda [um] of a doublet over +-0.03 um around it, by quadrature. Farther out a
-/// Lorentz wing is not to be trusted; the limit takes 1.4 % off a W of 7 nm and 0.1 % off one of 1.4 nm.
+/// Equivalent width W = int (1 - exp(-k L)) d lambda [um] of a doublet over +-0.03 um around it, by quadrature.
+/// The limit takes 1.4 % off a W of 7 nm and 0.1 % off one of 1.4 nm.
 /// \param x_path_m  mole fraction times path
 double equivalent_width_um(std::span<const AlkaliLine> lines, double x_path_m, double T_K, double pressure_atm);
 

@@ -24,4 +24,19 @@ SmokeOptics load_smoke_optics(const std::filesystem::path& path, std::string_vie
 /// savanna: 0.503 at 0.55 um, 0.0381 at 3.96 um.
 double smoke_absorption_m2_g(const SmokeOptics& smoke, double lambda_um) noexcept;
 
+/// Smoke at one wavelength, per metre of path.
+struct SmokeCoefficients {
+    double extinction_per_m = 0.0, single_scattering_albedo = 0.0, asymmetry = 0.0;
+    [[nodiscard]] double scattering_per_m() const noexcept { return extinction_per_m * single_scattering_albedo; }
+    [[nodiscard]] double absorption_per_m() const noexcept { return extinction_per_m - scattering_per_m(); }
+};
+
+/// Coefficients at a wavelength; extinction follows a power law between the samples, the rest is linear; end values outside.
+/// \param concentration_g_m3 mass of particles per volume, >= 0
+SmokeCoefficients smoke_coefficients(const SmokeOptics& smoke, double lambda_um, double concentration_g_m3) noexcept;
+
+/// Henyey & Greenstein (1941) phase function [1/sr]: (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)), 1 over the sphere.
+/// \param cosine of the scattering angle: 1 = straight on   \param asymmetry -1 < g < 1
+double henyey_greenstein_per_sr(double cosine, double asymmetry) noexcept;
+
 }  // namespace pyroscene::radiometry
