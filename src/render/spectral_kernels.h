@@ -6,6 +6,7 @@ namespace pyroscene::render {
 /// at run time. Arrays are contiguous floats whose length `n` is a multiple of kLanes (pad them); no alignment is asked for.
 /// Both versions give the same numbers within rounding; one machine always uses one of them.
 struct PlaneTrace;
+struct MixturePiece;
 
 /// One of the constituents of a piece of ray: absorption spectrum, fill x length, rows and weights of its Planck spectrum.
 struct Emitter {
@@ -30,6 +31,8 @@ struct SpectralKernels {
     ///   flame += scale tau (1 - exp(-a-b)) a / (a + b) B_f,   smoke likewise with b and B_s,   tau *= exp(-a-b)
     void (*emit_two)(int n, const Emitter& flame_piece, const Emitter& smoke_piece, int row_stride, float scale, float* tau,
                      float* flame, float* smoke);
+    /// One homogeneous piece of flame with gas: see MixturePiece.
+    void (*emit_mixture)(const MixturePiece& piece);
     /// out += sum_j weight[j] row_j
     void (*add_rows)(int n, const float* rows, int row_stride, int row_count, const float* weight, float* out);
     /// out += a x y
