@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
+
+#include "radiometry/absorption_mix.h"
 
 namespace pyroscene::render {
 
@@ -11,6 +14,8 @@ namespace pyroscene::render {
 class AbsorptionNodes {
 public:
     explicit AbsorptionNodes(std::span<const float> absorption_per_m);
+    /// With gas: a wavelength is a mixture of absorption coefficients. Nodes are a factor of 1.55 apart (1.5e-3).
+    explicit AbsorptionNodes(std::span<const std::vector<radiometry::AbsorptionPart>> mixes);
 
     /// Node values of k, ascending; a single one when all wavelengths have the same.
     [[nodiscard]] const std::vector<float>& k_per_m() const noexcept { return k_per_m_; }
@@ -23,8 +28,15 @@ private:
         int first = 0;
         float weight[4] = {1.0F, 0.0F, 0.0F, 0.0F};
     };
+    /// Nodes between two absorption coefficients; false: a single one.
+    bool make_nodes(double lowest_per_m, double highest_per_m, double ratio);
+    [[nodiscard]] Place place(double k_per_m) const noexcept;
+
     std::vector<float> k_per_m_;
-    std::vector<Place> places_;  ///< per wavelength
+    std::vector<Place> places_;      ///< per wavelength; empty for mixtures
+    std::vector<float> mix_weight_;  ///< [wavelength][node] of mixtures
+    std::size_t lambdas_ = 0;
+    double lowest_per_m_ = 0.0, highest_per_m_ = 0.0, step_ = 0.0;  ///< of ln k between nodes
 };
 
 }  // namespace pyroscene::render

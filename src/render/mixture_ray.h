@@ -25,8 +25,8 @@ public:
     /// Appends a piece away from the sensor and adds scale times its emission at the sensor to `flame` [stride].
     /// \param fill_length_m length times filled fraction   \param emission of the Planck rows, whose stride is the table's
     void add(double T_K, double fill_length_m, const PlanckRows& planck, float scale, float* flame);
-    /// Transmittance of all pieces [stride].
-    [[nodiscard]] const float* tau() const noexcept { return tau_.data(); }
+    /// Transmittance of all pieces [stride]; others that absorb on the way multiply it.
+    [[nodiscard]] float* tau() noexcept { return tau_.data(); }
 
 private:
     const radiometry::FlameTable* table_;

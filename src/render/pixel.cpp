@@ -26,7 +26,9 @@ Pixel::Pixel(const PreparedScene& prepared)
       ground_of_ray_(prepared.tables.stride),
       flame_(static_cast<std::size_t>(prepared.tables.stride), 0.0F),
       smoke_(static_cast<std::size_t>(prepared.tables.stride), 0.0F),
-      tau_(static_cast<std::size_t>(prepared.tables.stride), 1.0F) {}
+      tau_(static_cast<std::size_t>(prepared.tables.stride), 1.0F) {
+    if (prepared.tables.mixture) mixture_.emplace(*prepared.tables.mixture);
+}
 
 void Pixel::begin() {
     truth_ = {};
@@ -121,27 +123,40 @@ double Pixel::add_grey_flame(double weight) {
     return tau;
 }
 
-void Pixel::add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light) {
+void Pixel::emit_soot(double weight) {
     const SceneTables& t = prepared_->tables;
     std::fill(tau_.begin(), tau_.end(), 1.0F);
-    flame_used_ = true;
     for (const FlamePiece& piece : pieces_) {
         const PlanckRows::Lookup found = t.planck.at(piece.temperature_K);
         kernels_->emit(t.stride, t.absorption_per_m.data(), static_cast<float>(piece.fill_length_m), t.planck.row(found.row),
                        t.stride, found.count, found.weight.data(), static_cast<float>(weight), tau_.data(), flame_.data());
     }
-    add_ground_behind(weight, ground, light);
+}
+
+void Pixel::add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light) {
+    flame_used_ = true;
+    if (!mixture_) {
+        emit_soot(weight);
+        add_ground_behind(weight, ground, light, tau_.data());
+        return;
+    }
+    mixture_->begin();
+    for (const FlamePiece& piece : pieces_) {
+        mixture_->add(piece.temperature_K, piece.fill_length_m, prepared_->tables.planck, static_cast<float>(weight),
+                      flame_.data());
+    }
+    add_ground_behind(weight, ground, light, mixture_->tau());
 }
 
 /// Ground seen through the transmittance of the current ray.
-void Pixel::add_ground_behind(double weight, const GroundCell& ground, const GroundLight& light) {
+void Pixel::add_ground_behind(double weight, const GroundCell& ground, const GroundLight& light, const float* tau) {
     const SceneTables& t = prepared_->tables;
     ground_used_ = true;
     ground_of_ray_.clear();
     add_ground(t, ground, weight, light, mix_of_ray_);
     mix_of_ray_.resolve(prepared_->flame_light, ground_of_ray_);
     for (int p = 0; p < GroundSpectra::kParts; ++p) {
-        kernels_->add_product(t.stride, 1.0F, tau_.data(), ground_of_ray_.part(p), ground_.part(p));
+        kernels_->add_product(t.stride, 1.0F, tau, ground_of_ray_.part(p), ground_.part(p));
     }
 }
 
@@ -173,8 +188,33 @@ double Pixel::mixed_truth(double weight) {
     return tau;
 }
 
+/// Flame with gas and smoke in one piece: half of the smoke on either side of the flame, which is right to second order.
+void Pixel::add_mixed_with_gas(double weight) {
+    const SceneTables& t = prepared_->tables;
+    const auto scale = static_cast<float>(weight);
+    mixture_->begin();
+    for (const MixedPiece& piece : mixed_) {
+        const PlanckRows::Lookup warm = t.planck.at(piece.smoke_K);
+        const auto smoke = [&](double length_m) {
+            if (length_m > 0.0)
+                kernels_->emit(t.stride, t.smoke_absorption_per_m.data(), static_cast<float>(length_m), t.planck.row(warm.row),
+                               t.stride, warm.count, warm.weight.data(), scale, mixture_->tau(), smoke_.data());
+        };
+        const bool both = piece.flame_m > 0.0 && piece.smoke_m > 0.0;
+        smoke(both ? 0.5 * piece.smoke_m : piece.smoke_m);
+        if (piece.flame_m > 0.0) mixture_->add(piece.flame_K, piece.flame_m, t.planck, scale, flame_.data());
+        if (both) smoke(0.5 * piece.smoke_m);
+    }
+}
+
 void Pixel::add_mixed(double weight, const GroundCell& ground, const GroundLight& light) {
     const SceneTables& t = prepared_->tables;
+    if (mixture_) {
+        flame_used_ = true;
+        add_mixed_with_gas(weight);
+        add_ground_behind(weight, ground, light, mixture_->tau());
+        return;
+    }
     std::fill(tau_.begin(), tau_.end(), 1.0F);
     flame_used_ = true;
     const auto scale = static_cast<float>(weight);
@@ -192,7 +232,7 @@ void Pixel::add_mixed(double weight, const GroundCell& ground, const GroundLight
         kernels_->emit(t.stride, only.k, only.depth, only.rows, t.stride, only.row_count, only.weight, scale, tau_.data(),
                        piece.flame_m > 0.0 ? flame_.data() : smoke_.data());
     }
-    add_ground_behind(weight, ground, light);
+    add_ground_behind(weight, ground, light, tau_.data());
 }
 
 void Pixel::add_ground_truth(const GroundCell& ground, double weight) {

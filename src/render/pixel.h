@@ -7,6 +7,7 @@
 #include "render/flame_march.h"
 #include "render/ground_mix.h"
 #include "render/mixed_march.h"
+#include "render/mixture_ray.h"
 #include "render/scene.h"
 #include "render/scene_tables.h"
 
@@ -61,11 +62,13 @@ private:
     void march(Vec3 start_m, Vec3 hit_m);
     double flame_truth(double weight);
     double add_grey_flame(double weight);
+    void emit_soot(double weight);
     void add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light);
     bool march_mixed(Vec3 start_m, Vec3 hit_m);
     double mixed_truth(double weight);
     void add_mixed(double weight, const GroundCell& ground, const GroundLight& light);
-    void add_ground_behind(double weight, const GroundCell& ground, const GroundLight& light);
+    void add_mixed_with_gas(double weight);
+    void add_ground_behind(double weight, const GroundCell& ground, const GroundLight& light, const float* tau);
     void add_ground_truth(const GroundCell& ground, double weight);
 
     const PreparedScene* prepared_;
@@ -76,6 +79,7 @@ private:
     int first_flame_row_ = 0, end_flame_row_ = 0;
     GroundMix mix_, mix_of_ray_;
     GroundSpectra ground_, ground_of_ray_;
+    std::optional<MixtureRay> mixture_;
     std::vector<float> flame_, smoke_, tau_;
     std::vector<RaySegment> flame_segments_, smoke_segments_;
     std::vector<MixedPiece> mixed_;  ///< of the current ray, where it meets the plume

@@ -35,6 +35,25 @@ double slope_of_measure(double v) noexcept {
     return std::copysign(std::sqrt(std::abs(v) / std::max(1.0 - std::abs(v), 1e-12)), v);
 }
 
+/// Gas at the emission-weighted mean temperature of all flame: exact for flame of one temperature.
+AbsorptionNodes absorption_nodes(const RenderScene& scene) {
+    const SceneOptics& optics = *scene.optics;
+    if (!optics.flame_tables || optics.grey || scene.flame->empty()) return AbsorptionNodes(optics.flame_absorption_per_m);
+    double weight = 0.0, sum_K = 0.0;
+    for (const auto& brick : scene.flame->bricks) {
+        for (std::size_t v = 0; v < brick.fill.size(); ++v) {
+            if (!(brick.fill[v] > 0.0F)) continue;
+            const double T_K = brick.temperature_K[v], emission = brick.fill[v] * T_K * T_K * T_K * T_K;
+            weight += emission;
+            sum_K += emission * T_K;
+        }
+    }
+    std::vector<std::vector<radiometry::AbsorptionPart>> mixes;
+    for (const double lambda_um : optics.lambda_um)
+        mixes.push_back(radiometry::absorption_mix(*optics.flame_tables, optics.flame_gas, lambda_um, sum_K / weight));
+    return AbsorptionNodes(mixes);
+}
+
 PlanckSeries planck_series(const RenderScene& scene) {
     const auto [low, high] = scene.flame->temperature_range_K();
     return {scene.optics->lambda_um, padded(scene.optics->lambda_count), low, high};
@@ -43,7 +62,7 @@ PlanckSeries planck_series(const RenderScene& scene) {
 }  // namespace
 
 LightScene::LightScene(const RenderScene& s, const GroundLightSettings& g)
-    : scene(s), settings(g), planck(planck_series(s)), nodes(s.optics->flame_absorption_per_m), flame(*s.flame) {
+    : scene(s), settings(g), planck(planck_series(s)), nodes(absorption_nodes(s)), flame(*s.flame) {
     voxels.reserve(s.flame->bricks.size() * fire::FlameField::kBrickVoxels * 2);
     for (const auto& brick : s.flame->bricks) {
         for (std::size_t v = 0; v < brick.fill.size(); ++v) {

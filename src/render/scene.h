@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "base/vec3.h"
 #include "fire/flame_field.h"
 #include "fire/surface_field.h"
+#include "radiometry/flame_optics.h"
 #include "radiometry/spectral_grid.h"
 #include "radiometry/view_atmosphere.h"
 #include "render/terrain_mesh.h"
@@ -50,6 +52,10 @@ struct SceneOptics {
     std::vector<float> smoke_absorption_per_m;  ///< [lambda] of plume voxels of fill 1; empty without a plume
     FlameGas gas;                               ///< what the flame is made of
     bool grey = false;                          ///< absorption equal at all wavelengths: one exp per step
+    /// Hot gas and alkali lines beside the soot, of one mixture for all flame. Without tables, or where they say nothing at
+    /// these wavelengths, flame_absorption_per_m is all that absorbs.
+    std::shared_ptr<const radiometry::FlameOptics> flame_tables;
+    FlameGas flame_gas;
     int material_count = 0;
     std::vector<float> reflectance;  ///< [material][lambda]; emissivity = 1 - reflectance
     int burnt_material = 0;          ///< material of burnt and burning ground

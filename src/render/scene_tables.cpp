@@ -76,6 +76,20 @@ SceneTables::Rows rows(const SceneTables& t, Value&& value) {
     return r;
 }
 
+/// Null when the scene has no flame or no gas absorbs at its wavelengths.
+std::unique_ptr<const radiometry::FlameTable> make_mixture(const RenderScene& scene, int stride) {
+    const SceneOptics& optics = *scene.optics;
+    if (!optics.flame_tables || optics.grey || scene.flame->empty()) return nullptr;
+    const auto [low_K, high_K] = scene.flame->temperature_range_K();
+    auto table = std::make_unique<radiometry::FlameTable>(
+        radiometry::make_flame_table(*optics.flame_tables, optics.flame_gas, optics.lambda_um, stride, low_K, high_K));
+    const auto has_lines = [&](double lambda_um) {
+        return radiometry::alkali_absorption_per_m(optics.flame_tables->alkali, lambda_um, high_K, optics.flame_gas) > 0.0;
+    };
+    if (table->gases.empty() && std::none_of(optics.lambda_um.begin(), optics.lambda_um.end(), has_lines)) return nullptr;
+    return table;
+}
+
 bool any_positive(const std::vector<float>& values) {
     return std::any_of(values.begin(), values.end(), [](float v) { return v > 0.0F; });
 }
@@ -123,6 +137,7 @@ SceneTables::SceneTables(const RenderScene& scene) {
     absorption_per_m = optics.flame_absorption_per_m;
     absorption_per_m.resize(static_cast<std::size_t>(stride), absorption_per_m.back());
     least_absorption_per_m = *std::min_element(absorption_per_m.begin(), absorption_per_m.end());
+    mixture = make_mixture(scene, stride);
     grey = optics.grey;
     grey_absorption_per_m = absorption_per_m.front();
     const auto nearest = std::min_element(optics.lambda_um.begin(), optics.lambda_um.end(), [](double a, double b) {

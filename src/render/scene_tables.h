@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "radiometry/flame_table.h"
 #include "render/planck_rows.h"
 #include "render/scene.h"
 #include "render/spectral_kernels.h"
@@ -28,6 +30,8 @@ struct SceneTables {
     std::vector<float> absorption_per_m;        ///< of flame
     std::vector<float> smoke_absorption_per_m;  ///< of plume; empty without one
     double truth_smoke_absorption_per_m = 0.0;
+    /// Soot, gas and atoms over temperature; null when only the above absorbs.
+    std::unique_ptr<const radiometry::FlameTable> mixture;
     bool grey = false;
     double grey_absorption_per_m = 0.0, least_absorption_per_m = 0.0;
     double truth_absorption_per_m = 0.0;  ///< at the node nearest 4.0 um

@@ -15,12 +15,13 @@ extern const SpectralKernels portable_spectral_kernels;
 namespace {
 
 const radiometry::FlameOptics& optics() {
-    static const auto loaded = radiometry::load_flame_optics(std::filesystem::path(PYROSCENE_TEST_SOURCE_DIR) / "data/optical");
+    static const auto loaded =
+        radiometry::load_flame_optics(std::filesystem::path(PYROSCENE_TEST_SOURCE_DIR) / "data/optical");
     return loaded;
 }
 
-const std::vector<double> kLambda_um{0.55, 0.766,  0.7667009, 0.77, 1.2, 1.38, 1.9,  2.2, 2.35, 2.7,  2.77, 3.3,  3.31,
-                                     3.9,  4.1826, 4.2,       4.3,  4.5, 4.67, 4.75, 6.3, 7.6,  8.5,  10.6, 12.0, 14.9};
+const std::vector<double> kLambda_um{0.55, 0.766,  0.7667009, 0.77, 1.2, 1.38, 1.9,  2.2, 2.35, 2.7, 2.77, 3.3,  3.31,
+                                     3.9,  4.1826, 4.2,       4.3,  4.5, 4.67, 4.75, 6.3, 7.6,  8.5, 10.6, 12.0, 14.9};
 
 using Pieces = std::vector<std::pair<double, double>>;  // length_m, T_K
 
