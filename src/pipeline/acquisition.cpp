@@ -162,6 +162,12 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
             optics.grey ? *scenario.flame.grey_absorption_per_m
                         : radiometry::soot_absorption_per_m(soot, lambda_um, fire.gas.soot_volume_fraction)));
 
+    if (scenario.flame.hot_gas && !optics.grey && !scenario.flame.off) {
+        optics.flame_tables = std::make_shared<const radiometry::FlameOptics>(
+            radiometry::load_flame_optics(data_folder() / "optical"));
+        optics.flame_gas = scenario.flame.gas;
+        optics.flame_gas.potassium_ppm = 0.0;  // lines need a grid that resolves them
+    }
     auto names = in.cover_names;
     optics.reflectance = ground_reflectance(scenario, names, out.grid);
     names.push_back(scenario.surface.burned);

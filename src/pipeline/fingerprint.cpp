@@ -65,6 +65,7 @@ std::string scene_text(const Scenario& s) {
                                   fmt::join(flame.parameters.voxel_m, ","), flame.parameters.ember_gap_m,
                                   flame.gas.soot_volume_fraction, flame.grey_absorption_per_m.value_or(-1.0), flame.off);
     out += fmt::format("{}|{};", flame.radiant_fraction.value_or(-1.0), flame.adjust_temperature);
+    out += fmt::format("{}|", flame.hot_gas);
     const auto& gas = flame.gas;
     out += fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{};", static_cast<int>(flame.parameters.profile.shape),
                        flame.parameters.profile.tip_K, gas.x_H2O, gas.x_CO2, gas.x_CO, gas.x_CH4, gas.x_O2,

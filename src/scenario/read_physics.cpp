@@ -89,8 +89,9 @@ void read_profile(const config::Node& node, fire::FlameParameters& p) {
 
 }  // namespace
 
-FlameSettings read_flame(const config::Node& node) {
+FlameSettings read_flame(const config::Node& node, fire::Physics physics) {
     FlameSettings flame;
+    flame.hot_gas = node.boolean("hot_gas", physics == fire::Physics::Default);
     auto& p = flame.parameters;
     flame.off = !node.boolean("enabled", !flame.off);
     p.temperature_K = node.number("temperature_K", p.temperature_K, kTemperature_K);
@@ -104,6 +105,8 @@ FlameSettings read_flame(const config::Node& node) {
     flame.adjust_temperature = node.choice("adjust", "soot", {"soot", "temperature"}) == "temperature";
     if (flame.radiant_fraction && !flame.adjust_temperature && node.has("absorption_per_m"))
         node.child("radiant_fraction").report("a grey flame has no soot to scale; give 'adjust: temperature'");
+    if (flame.grey_absorption_per_m && node.has("hot_gas") && flame.hot_gas)
+        node.child("hot_gas").report("has no place in a grey flame; drop it or 'absorption_per_m'");
     p.ember_gap_m = node.number("ember_gap_m", p.ember_gap_m, Range::between(0.0, 100.0));
     const bool soot = node.has("soot_volume_fraction") || node.child("composition").has("soot_volume_fraction");
     if (soot && node.has("absorption_per_m"))

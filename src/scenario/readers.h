@@ -29,11 +29,11 @@ void check_flame_inputs(const config::Node& root, const Scenario& scenario);
 /// \param has_cover the inputs say the class of each cell, which `by_cover` needs
 void read_scar(const config::Node& node, const std::filesystem::path& folder, bool has_cover,
                fire::FireParameters& parameters);
-FlameSettings read_flame(const config::Node& node);
 PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire);
 /// \param folder  of the scenario file
 PlumeSource read_plume_source(const config::Node& node, const std::filesystem::path& folder);
 SurfaceSettings read_surface(const config::Node& node, const std::filesystem::path& folder);
+FlameSettings read_flame(const config::Node& node, fire::Physics physics);
 AtmosphereSource read_atmosphere(const config::Node& node, const std::filesystem::path& folder);
 RenderSettings read_render(const config::Node& node);
 std::vector<Acquisition> read_acquisitions(const config::Node& node, const std::filesystem::path& folder);

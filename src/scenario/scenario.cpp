@@ -100,7 +100,7 @@ Scenario load(const fs::path& path) {
     s.fire.physics = s.physics;
     s.fire.seed = s.seed;
     check_flame_inputs(root, s);
-    s.flame = read_flame(root.child("flame"));
+    s.flame = read_flame(root.child("flame"), s.physics);
     s.flame.parameters.profile.air_K = s.fire.air_temperature_K;
     s.plume = read_plume(root.child("plume"), s.inputs, s.fire);
     s.surface = read_surface(root.child("surface"), folder);

@@ -190,6 +190,7 @@ constexpr const char* kSchema = R"json({
             "potassium_ppm": {"type": "number", "minimum": 0, "maximum": 1000, "default": 1}
           }
         },
+        "hot_gas": {"type": "boolean", "description": "gas and alkali lines beside soot; default: true, with physics thesis false"},
         "absorption_per_m": {"type": "number", "minimum": 0, "maximum": 1e4, "description": "grey, instead of soot"},
         "voxel_m": {"type": "array", "minItems": 3, "maxItems": 3, "default": [5, 5, 1],
           "items": {"type": "number", "minimum": 0.05, "maximum": 200}},
