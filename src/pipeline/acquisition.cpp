@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +15,7 @@
 #include "pipeline/plume_scene.h"
 #include "radiometry/atmosphere.h"
 #include "radiometry/soot.h"
+#include "radiometry/transport_grid.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -143,13 +145,44 @@ FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const
     return scene;
 }
 
+namespace {
+
+/// Transport wavelengths; where flame gas absorbs they are picked for this scene's air, seen at a few angles.
+radiometry::SpectralGrid make_grid(const std::vector<Spectrum>& responses, const render::SceneOptics& optics,
+                                   const radiometry::AtmosphereSet* set,
+                                   const radiometry::AtmosphereConditions& conditions) {
+    if (!optics.flame_tables) return radiometry::make_spectral_grid(responses);
+    radiometry::SpectralStructure structure{optics.flame_tables.get(), optics.flame_gas, {}};
+    if (set != nullptr) {
+        for (const double view_deg : {0.0, 25.0, 50.0})
+            structure.air.push_back(radiometry::evaluate(*set, {conditions, view_deg * kDegree_rad, kPi / 2.0}));
+    }
+    return radiometry::make_spectral_grid(responses, structure);
+}
+
+}  // namespace
+
 SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& in, const FireScene& fire,
                                   const std::vector<Spectrum>& responses, double sensor_agl_m,
                                   const radiometry::SunPosition& sun, RunReport& report) {
     SpectralScene out;
-    out.grid = radiometry::make_spectral_grid(responses);
-    const int n = out.grid.size();
     auto& optics = out.optics;
+    radiometry::AtmosphereConditions conditions;
+    conditions.sensor_altitude_agl_m = sensor_agl_m;
+    conditions.ground_elevation_m = scenario.atmosphere.ground_elevation_m.value_or(in.mean_height_m);
+    conditions.visibility_km = scenario.atmosphere.visibility_km;
+    conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
+    conditions.sun_distance_AU = sun.distance_AU;
+    std::optional<radiometry::AtmosphereSet> set;
+    if (scenario.atmosphere.model != "none" || scenario.atmosphere.file)
+        set = load_atmosphere(scenario, conditions.ground_elevation_m);
+    if (scenario.flame.hot_gas && !scenario.flame.grey_absorption_per_m && !scenario.flame.off) {
+        optics.flame_tables =
+            std::make_shared<const radiometry::FlameOptics>(radiometry::load_flame_optics(data_folder() / "optical"));
+        optics.flame_gas = fire.gas;
+    }
+    out.grid = make_grid(responses, optics, set ? &*set : nullptr, conditions);
+    const int n = out.grid.size();
     optics.lambda_count = n;
     optics.lambda_um = out.grid.lambda_um;
 
@@ -162,18 +195,12 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
             optics.grey ? *scenario.flame.grey_absorption_per_m
                         : radiometry::soot_absorption_per_m(soot, lambda_um, fire.gas.soot_volume_fraction)));
 
-    if (scenario.flame.hot_gas && !optics.grey && !scenario.flame.off) {
-        optics.flame_tables = std::make_shared<const radiometry::FlameOptics>(
-            radiometry::load_flame_optics(data_folder() / "optical"));
-        optics.flame_gas = scenario.flame.gas;
-        optics.flame_gas.potassium_ppm = 0.0;  // lines need a grid that resolves them
-    }
     auto names = in.cover_names;
     optics.reflectance = ground_reflectance(scenario, names, out.grid);
     names.push_back(scenario.surface.burned);
     optics.material_count = static_cast<int>(names.size());
     optics.burnt_material = optics.material_count - 1;
-    if (scenario.atmosphere.model == "none" && !scenario.atmosphere.file) {
+    if (!set) {
         out.atmosphere = radiometry::vacuum(n);
         return out;
     }
@@ -184,16 +211,9 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
         for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
             albedo[i] += share[m] * optics.reflectance[m * static_cast<std::size_t>(n) + i];
 
-    radiometry::AtmosphereConditions conditions;
-    conditions.sensor_altitude_agl_m = sensor_agl_m;
-    conditions.ground_elevation_m = scenario.atmosphere.ground_elevation_m.value_or(in.mean_height_m);
-    conditions.visibility_km = scenario.atmosphere.visibility_km;
-    conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
-    conditions.sun_distance_AU = sun.distance_AU;
-    const auto set = load_atmosphere(scenario, conditions.ground_elevation_m);
-    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, set.tables.front(), out.grid);
-    out.atmosphere = radiometry::make_view_atmosphere(set, conditions, out.grid, albedo);
-    for (const auto& warning : radiometry::atmosphere_warnings(set, conditions)) report.warn("atmosphere: " + warning);
+    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, set->tables.front(), out.grid);
+    out.atmosphere = radiometry::make_view_atmosphere(*set, conditions, out.grid, albedo);
+    for (const auto& warning : radiometry::atmosphere_warnings(*set, conditions)) report.warn("atmosphere: " + warning);
     return out;
 }
 

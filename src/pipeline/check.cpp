@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "pipeline/acquisition.h"
 #include "pipeline/ground_reflectance.h"
 #include "pipeline/plume_scene.h"
 #include "pipeline/run.h"
+#include "radiometry/transport_grid.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -45,6 +47,13 @@ void check_rasters(const Scenario& s, const SceneInputs& in, CheckResult& result
 /// Nominal cost of a ray and of a ray times wavelength, one core of an ordinary machine [s]; docs/physics-render.md measures them.
 constexpr double kRay_s = 1.0e-6, kRayWavelength_s = 1.0e-8, kPixelWavelength_s = 2.0e-8;
 
+/// As the render picks it, but without the air, which moves few nodes.
+radiometry::SpectralGrid transport_grid(const Scenario& s, const std::vector<Spectrum>& responses) {
+    if (!s.flame.hot_gas || s.flame.grey_absorption_per_m || s.flame.off) return radiometry::make_spectral_grid(responses);
+    static const auto tables = radiometry::load_flame_optics(data_folder() / "optical");
+    return radiometry::make_spectral_grid(responses, {&tables, s.flame.gas, {}});
+}
+
 std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const scenario::Acquisition& a, double& seconds) {
     const auto sensor = sensors::load_sensor(a.sensor);
     std::string out;
@@ -54,7 +63,7 @@ std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const 
         std::vector<Spectrum> responses;
         for (const int b : wanted_bands(a, sensor, id))
             responses.push_back(sensor.bands[static_cast<std::size_t>(b)].response);
-        const auto grid = radiometry::make_spectral_grid(responses);
+        const auto grid = transport_grid(s, responses);
         (void)ground_reflectance(s, in.cover_names, grid);  // for what is wrong with the user's spectra
         const bool point =
             sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;

@@ -18,11 +18,12 @@ namespace {
 
 using Array = std::vector<double>;
 
-constexpr std::array<double, 11> kBlackbodies_K{300.0, 350.0, 420.0,  500.0,  600.0, 700.0,
+constexpr std::array<double, 11> kBlackbodies_K{300.0, 350.0,  420.0,  500.0,  600.0, 700.0,
                                                 850.0, 1100.0, 1300.0, 1600.0, 2000.0};
 constexpr std::array<double, 3> kFlames_K{900.0, 1150.0, 1500.0};
 constexpr std::array<double, 4> kLengths_m{0.2, 1.0, 4.0, 15.0};
-constexpr double kStep_per_cm = 2.5, kTolerance = 7e-4, kPlanckWeight = 15.0, kDark_W_m2_sr_um = 1e-3;
+constexpr double kStep_per_cm = 2.5, kNarrow_per_cm = 500.0, kTolerance = 7e-4, kPlanckWeight = 15.0,
+                 kDark_W_m2_sr_um = 1e-3;
 constexpr double kLeastSignal_W_m2_sr_um = 1e-6;
 constexpr std::size_t kMostNodes = 48;
 
@@ -41,8 +42,8 @@ bool absorbs(const SpectralStructure& s, double lambda_um) noexcept {
 Resolved resolve(const Spectrum& response, const SpectralStructure& s) {
     const double lower = response.lambda_um.front(), upper = response.lambda_um.back();
     Array x{lower, upper};
-    for (double wavenumber = std::ceil(1e4 / upper / kStep_per_cm) * kStep_per_cm; wavenumber < 1e4 / lower;
-         wavenumber += kStep_per_cm)
+    const double step_per_cm = 1e4 / lower - 1e4 / upper < kNarrow_per_cm ? 1.0 : kStep_per_cm;
+    for (double wavenumber = 1e4 / upper + step_per_cm; wavenumber < 1e4 / lower; wavenumber += step_per_cm)
         x.push_back(1e4 / wavenumber);
     const auto add_lines = [&](const std::vector<AlkaliLine>& lines, double ppm) {
         const double first = lines.front().wavelength_um, last = lines.back().wavelength_um;

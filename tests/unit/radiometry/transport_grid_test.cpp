@@ -3,6 +3,7 @@
 #include "radiometry/transport_grid.h"
 
 #include <cmath>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -111,9 +112,10 @@ std::vector<Case> cases() {
 }
 
 TEST(TransportGrid, BandsAgreeWithOneWavenumberWithinHalfAPercent) {
-    const AtmosphericTerms nadir = line_of_sight("midlatitude_summer", 0.0), slant = line_of_sight("midlatitude_summer", 45.0),
+    const AtmosphericTerms nadir = line_of_sight("midlatitude_summer", 0.0),
+                           slant = line_of_sight("midlatitude_summer", 45.0),
                            between = line_of_sight("midlatitude_summer", 30.0);
-    SpectralStructure structure{&optics(), {}, {nadir, slant}};
+    SpectralStructure structure{&optics(), {}, {nadir, line_of_sight("midlatitude_summer", 20.0), slant}};
     FlameGas moist;
     moist.x_H2O = 0.2;
     moist.x_CO2 = 0.06;
@@ -137,7 +139,8 @@ TEST(TransportGrid, BandsAgreeWithOneWavenumberWithinHalfAPercent) {
             EXPECT_LT(std::abs(error), 5e-3) << test.name << ", scene " << s;
         }
         RecordProperty(test.name, std::to_string(grid.size()) + " nodes, " + std::to_string(100.0 * worst) + " %");
-        std::printf("%-20s %3d nodes  worst %.3f %%\n", test.name.c_str(), grid.size(), 100.0 * worst);
+        if (std::getenv("PYROSCENE_PRINT") != nullptr)
+            std::printf("%-20s %3d nodes  worst %.3f %%\n", test.name.c_str(), grid.size(), 100.0 * worst);
     }
 }
 
@@ -149,7 +152,8 @@ TEST(TransportGrid, BlackbodiesStayExact) {
             const double expected = band_mean_radiance(T_K, response);
             if (expected < 1e-3) continue;
             double sum = 0.0;
-            for (std::size_t i = 0; i < grid.weight.size(); ++i) sum += grid.weight[i] * planck_radiance(grid.lambda_um[i], T_K);
+            for (std::size_t i = 0; i < grid.weight.size(); ++i)
+                sum += grid.weight[i] * planck_radiance(grid.lambda_um[i], T_K);
             EXPECT_NEAR(sum / expected, 1.0, 2e-4) << T_K;
         }
     }
