@@ -13,6 +13,7 @@
 #include "base/random.h"
 #include "bench/w0_scene.h"
 #include "render/flame_march.h"
+#include "render/mixture_ray.h"
 #include "render/spectral_kernels.h"
 
 namespace pyroscene::bench {
@@ -36,6 +37,35 @@ void emit(benchmark::State& state) {
     state.SetLabel("ns per voxel and wavelength");
 }
 BENCHMARK(emit)->Args({224, 1})->Args({224, 4})->Args({36, 4});
+
+/// One piece of flame with gas at 224 wavelengths: soot and atoms alone (0 gases), or with that many absorbing everywhere.
+void mixture(benchmark::State& state) {
+    constexpr int n = 224;
+    radiometry::FlameTable table;
+    table.stride = n;
+    table.row_count = 2;
+    table.lowest_K = 900.0;
+    table.step_K = 20.0;
+    table.continuum_per_m.assign(2 * n, 0.1F);
+    std::vector<int> blocks;
+    for (int l = 0; l < n; l += radiometry::FlameTable::kLanes) blocks.push_back(l);
+    for (int g = 0; g < static_cast<int>(state.range(0)); ++g)
+        table.gases.push_back({radiometry::GasSpecies::H2O, blocks, std::vector<float>(6 * n, 0.05F)});
+    std::vector<double> lambda_um;
+    for (int l = 0; l < n; ++l) lambda_um.push_back(2.0 + 0.03 * l);
+    const render::PlanckRows planck(lambda_um, n, 900.0, 920.0, {});
+    render::MixtureRay ray(table);
+    std::vector<float> flame(n, 0.0F);
+    int pieces = 0;
+    for (auto _ : state) {
+        if (pieces++ % 64 == 0) ray.begin();
+        ray.add(911.0, 0.2, planck, 1.0F, flame.data());
+        benchmark::DoNotOptimize(flame.data());
+    }
+    state.counters["items"] = n;
+    state.SetLabel(fmt::format("ns per voxel and wavelength, soot and {} gases", state.range(0)));
+}
+BENCHMARK(mixture)->Arg(0)->Arg(1)->Arg(3);
 
 /// Stepwise selection among five spectra at 224 bands, pixels with two or three of them and noise.
 void unmix(benchmark::State& state) {

@@ -24,6 +24,21 @@ void FlamePath::add(double length_m, double T_K, const FlameGas& gas) noexcept {
     radiance_ -= std::exp(-before) * std::expm1(-added) * planck_radiance(lambda_um_, T_K);
 }
 
+double total_emissivity(const FlameOptics& optics, const FlameGas& gas, double T_K, double length_m) noexcept {
+    constexpr int kWavelengths = 400;
+    constexpr double kShortest_um = 0.5, kLongest_um = 16.6;
+    double emitted = 0.0, black = 0.0;
+    for (int i = 0; i < kWavelengths; ++i) {
+        const double lambda_um = kShortest_um * std::pow(kLongest_um / kShortest_um, (i + 0.5) / kWavelengths);
+        const double weight = lambda_um * planck_radiance(lambda_um, T_K);  // even in ln(lambda)
+        FlamePath path(optics, lambda_um);
+        path.add(length_m, T_K, gas);
+        black += weight;
+        emitted -= weight * std::expm1(-path.depth());
+    }
+    return emitted / black;
+}
+
 double FlamePath::gas_depth(GasSpecies species) const noexcept {
     return gas_optical_depth(species, columns_[static_cast<std::size_t>(species)]);
 }

@@ -47,4 +47,8 @@ private:
     std::array<GasColumn, kGasSpeciesCount> columns_{};
 };
 
+/// Emissivity of a homogeneous flame over all wavelengths, weighted with Planck's law between 0.5 and 16.6 um: what a radiometer
+/// without a filter sees. Sums over 400 wavelengths (1 % of the resolved integral).
+double total_emissivity(const FlameOptics& optics, const FlameGas& gas, double T_K, double length_m) noexcept;
+
 }  // namespace pyroscene::radiometry

@@ -94,12 +94,18 @@ void Pixel::march(Vec3 start_m, Vec3 hit_m) {
 
 /// Opacity, temperature and exitance of the flame on this ray; returns its transmittance.
 double Pixel::flame_truth(double weight) {
-    double tau = 1.0;
+    const bool gas = !prepared_->tables.total_transmittance.empty();
+    double tau = 1.0, total = 1.0, passed_m = 0.0;
     for (const FlamePiece& piece : pieces_) {
+        const double T4 = fourth_power(piece.temperature_K);
         const double emitted = -tau * std::expm1(-prepared_->tables.truth_absorption_per_m * piece.fill_length_m);
         tau -= emitted;
         truth_.flame += weight * emitted;
-        truth_.flame_T4 += weight * emitted * fourth_power(piece.temperature_K);
+        truth_.flame_T4 += weight * emitted * T4;
+        passed_m += piece.fill_length_m;
+        const double left = gas ? prepared_->tables.total_transmittance_at(passed_m) : tau;
+        truth_.exitance_W_m2 += weight * kStefanBoltzmann_W_m2_K4 * (total - left) * T4;
+        total = left;
     }
     return tau;
 }
@@ -174,7 +180,8 @@ bool Pixel::march_mixed(Vec3 start_m, Vec3 hit_m) {
 /// What flame_truth() is for flame alone.
 double Pixel::mixed_truth(double weight) {
     const SceneTables& t = prepared_->tables;
-    double tau = 1.0;
+    const bool gas = !t.total_transmittance.empty();
+    double tau = 1.0, total = 1.0, passed_m = 0.0;  // the flame's true exitance is that without the smoke when there is gas
     for (const MixedPiece& piece : mixed_) {
         const double flame = t.truth_absorption_per_m * piece.flame_m,
                      smoke = t.truth_smoke_absorption_per_m * piece.smoke_m;
@@ -183,6 +190,10 @@ double Pixel::mixed_truth(double weight) {
         tau -= emitted;
         truth_.flame += weight * by_flame;
         truth_.flame_T4 += weight * by_flame * fourth_power(piece.flame_K);
+        const double left = gas ? t.total_transmittance_at(passed_m + piece.flame_m) : total - by_flame;
+        passed_m += piece.flame_m;
+        truth_.exitance_W_m2 += weight * kStefanBoltzmann_W_m2_K4 * (total - left) * fourth_power(piece.flame_K);
+        total = left;
         truth_.smoke += weight * (emitted - by_flame);
     }
     return tau;
@@ -197,8 +208,9 @@ void Pixel::add_mixed_with_gas(double weight) {
         const PlanckRows::Lookup warm = t.planck.at(piece.smoke_K);
         const auto smoke = [&](double length_m) {
             if (length_m > 0.0)
-                kernels_->emit(t.stride, t.smoke_absorption_per_m.data(), static_cast<float>(length_m), t.planck.row(warm.row),
-                               t.stride, warm.count, warm.weight.data(), scale, mixture_->tau(), smoke_.data());
+                kernels_->emit(t.stride, t.smoke_absorption_per_m.data(), static_cast<float>(length_m),
+                               t.planck.row(warm.row), t.stride, warm.count, warm.weight.data(), scale, mixture_->tau(),
+                               smoke_.data());
         };
         const bool both = piece.flame_m > 0.0 && piece.smoke_m > 0.0;
         smoke(both ? 0.5 * piece.smoke_m : piece.smoke_m);
@@ -254,7 +266,6 @@ void Pixel::add_ground_truth(const GroundCell& ground, double weight) {
 
 void Pixel::finish() {
     const SceneTables& t = prepared_->tables;
-    truth_.exitance_W_m2 += kStefanBoltzmann_W_m2_K4 * truth_.flame_T4;
     flame_used_ = flame_used_ || end_flame_row_ > first_flame_row_;
     for (int row = first_flame_row_; row < end_flame_row_; ++row) {
         auto& weight = flame_weight_[static_cast<std::size_t>(row)];

@@ -14,6 +14,8 @@ namespace pyroscene::render {
 namespace {
 
 constexpr double kTruthWavelength_um = 4.0;
+constexpr double kTotalUnit_m = 0.01, kTotalStep = 0.25;
+constexpr int kTotalNodes = 42;  ///< to 280 m
 
 void require(bool holds, std::string_view subject, std::string_view message) {
     if (!holds) throw input_error(subject, message);
@@ -122,6 +124,13 @@ void check_scene(const RenderScene& scene) {
                         highest == scene.cover->values.end() ? 0 : static_cast<int>(*highest), optics.material_count - 1));
 }
 
+double SceneTables::total_transmittance_at(double fill_length_m) const noexcept {
+    const double position = std::clamp(std::log1p(fill_length_m / kTotalUnit_m) / kTotalStep, 0.0, kTotalNodes - 1.0);
+    const int i = std::min(static_cast<int>(position), kTotalNodes - 2);
+    const double* t = total_transmittance.data() + i;
+    return t[0] + (position - i) * (t[1] - t[0]);
+}
+
 SceneTables::SceneTables(const RenderScene& scene) {
     const SceneOptics& optics = *scene.optics;
     const radiometry::ViewAtmosphere& air = *scene.atmosphere;
@@ -138,6 +147,14 @@ SceneTables::SceneTables(const RenderScene& scene) {
     absorption_per_m.resize(static_cast<std::size_t>(stride), absorption_per_m.back());
     least_absorption_per_m = *std::min_element(absorption_per_m.begin(), absorption_per_m.end());
     mixture = make_mixture(scene, stride);
+    if (optics.flame_tables && !optics.grey && !scene.flame->empty()) {
+        const auto [low_K, high_K] = scene.flame->temperature_range_K();
+        const double T_K = 0.5 * (low_K + high_K);
+        for (int i = 0; i < kTotalNodes; ++i) {
+            total_transmittance.push_back(1.0 - radiometry::total_emissivity(*optics.flame_tables, optics.flame_gas, T_K,
+                                                                             kTotalUnit_m * std::expm1(kTotalStep * i)));
+        }
+    }
     grey = optics.grey;
     grey_absorption_per_m = absorption_per_m.front();
     const auto nearest = std::min_element(optics.lambda_um.begin(), optics.lambda_um.end(), [](double a, double b) {

@@ -32,6 +32,10 @@ struct SceneTables {
     double truth_smoke_absorption_per_m = 0.0;
     /// Soot, gas and atoms over temperature; null when only the above absorbs.
     std::unique_ptr<const radiometry::FlameTable> mixture;
+    /// Transmittance of flame over all wavelengths at 0, 0.25, ... in ln(1 + filled length / 1 cm), for the true exitance of
+    /// flame with gas; empty without.
+    std::vector<double> total_transmittance;
+    [[nodiscard]] double total_transmittance_at(double fill_length_m) const noexcept;
     bool grey = false;
     double grey_absorption_per_m = 0.0, least_absorption_per_m = 0.0;
     double truth_absorption_per_m = 0.0;  ///< at the node nearest 4.0 um

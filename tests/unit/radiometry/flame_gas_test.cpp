@@ -104,6 +104,12 @@ TEST(FlameGas, TotalGasEmissivityOfTheReferenceFlame) {
     EXPECT_NEAR(share * band_emissivity(lower_um, upper_um, 1100.0, 1.0, reference_gas(0.0)), 0.267, 0.0006);
 }
 
+TEST(FlameGas, TotalEmissivityOfSootAndGas) {
+    // 0.6 to 16 um: 0.263, 0.377 and 0.624 at 0.5, 1 and 3 m; the wider range adds little.
+    for (const auto& [length_m, expected] : std::vector<std::pair<double, double>>{{0.5, 0.263}, {1.0, 0.377}, {3.0, 0.624}})
+        EXPECT_NEAR(total_emissivity(shipped(), reference_gas(), 1100.0, length_m), expected, 0.01 * expected);
+}
+
 TEST(FlameGas, CuttingAnIsothermalPathChangesNothing) {
     for (const double lambda_um : {1.9, 2.7, 4.3, 4.67, 6.3, 10.6}) {
         FlamePath pieces(shipped(), lambda_um);
