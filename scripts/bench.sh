@@ -47,9 +47,13 @@ time_case() {  # name, scenario file, limits
         echo "| $1, $threads thread(s) | $(median "${cpu[@]}") s CPU, $(median "${wall[@]}") s wall, $peak MB |  |  | $3 | |"
     done
 }
-# The comparison line is three channels with reflected light and atmosphere as one GeoTIFF; the second case adds everything
-# else that a run makes (truth, brightness temperature, fractions, FRP, ortho COGs, vectors, picture).
+# The comparison line is three channels with flames of soot, reflected light and atmosphere as one GeoTIFF; the second case
+# adds hot gas in the flames, the third everything else that a run makes (truth, brightness temperature, fractions, FRP,
+# ortho COGs, vectors, picture).
 sed "s#file: #file: $PWD/scenarios/thesis_grassfire/#" "$scenario" > "$out/radiance.yaml"
 echo "products: [radiance]" >> "$out/radiance.yaml"
-time_case "B2t thesis case, radiance GeoTIFF" "$out/radiance.yaml" "P 3.6 s, G 1 s"
+cp "$out/radiance.yaml" "$out/soot.yaml"
+echo "flame: {hot_gas: false}" >> "$out/soot.yaml"
+time_case "B2t thesis case, radiance GeoTIFF" "$out/soot.yaml" "P 3.6 s, G 1 s"
+time_case "the same with hot gas" "$out/radiance.yaml" ""
 time_case "thesis case, all products" "$scenario" ""
