@@ -42,7 +42,7 @@ SubsetFactor factor_subset(const std::vector<double>& r, int k, std::uint32_t su
     SubsetFactor f;
     for (int j = 0; j < k; ++j) {
         if ((subset >> j & 1U) == 0) continue;
-        f.members[static_cast<std::size_t>(f.size++)] = static_cast<std::int8_t>(j);
+        f.members[static_cast<std::size_t>(f.size++)] = static_cast<std::uint8_t>(j);
         for (int i = 0; i < k; ++i) f.basis.push_back(r[at(i, j, k)]);
     }
     const int n = f.size;

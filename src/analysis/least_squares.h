@@ -13,7 +13,7 @@ using Coordinates = std::array<double, kMostEndmembers>;
 /// Orthonormal basis and triangular factor of some columns of a k x k matrix R: R(:, S) = Q T.
 struct SubsetFactor {
     int size = 0;
-    std::array<std::int8_t, kMostEndmembers> members{};  ///< columns, ascending
+    std::array<std::uint8_t, kMostEndmembers> members{};  ///< columns, ascending
     std::vector<double> basis;                           ///< Q': [size][k]
     std::vector<double> inverse;                         ///< T^-1, upper triangular: [size][size]
     std::vector<double> variance;                        ///< [size] diagonal of (R_S' R_S)^-1 = squared row norms of T^-1

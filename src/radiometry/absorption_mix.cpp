@@ -48,6 +48,7 @@ std::vector<AbsorptionPart> absorption_mix(const FlameOptics& optics, const Flam
     for (double k = 1e-5 * highest; k < highest; k *= kRatio) k_per_m.push_back(k);
     FitColumns columns{kLengths + 1, {}};
     std::vector<double> target;
+    target.reserve(kLengths + 1);
     const auto length_m = [](int i) { return kShortest_m * std::pow(kLongest_m / kShortest_m, i / (kLengths - 1.0)); };
     for (const double k : k_per_m) {
         for (int i = 0; i < kLengths; ++i) columns.values.push_back(std::exp(-k * length_m(i)));

@@ -15,6 +15,7 @@ float stored(double value) { return value < kLeast_per_m ? 0.0F : static_cast<fl
 
 std::vector<double> temperatures_K(const FlameTable& table) {
     std::vector<double> T_K;
+    T_K.reserve(static_cast<std::size_t>(table.row_count));
     for (int row = 0; row < table.row_count; ++row) T_K.push_back(table.lowest_K + row * table.step_K);
     return T_K;
 }
