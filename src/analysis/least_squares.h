@@ -14,9 +14,9 @@ using Coordinates = std::array<double, kMostEndmembers>;
 struct SubsetFactor {
     int size = 0;
     std::array<std::uint8_t, kMostEndmembers> members{};  ///< columns, ascending
-    std::vector<double> basis;                           ///< Q': [size][k]
-    std::vector<double> inverse;                         ///< T^-1, upper triangular: [size][size]
-    std::vector<double> variance;                        ///< [size] diagonal of (R_S' R_S)^-1 = squared row norms of T^-1
+    std::vector<double> basis;                            ///< Q': [size][k]
+    std::vector<double> inverse;                          ///< T^-1, upper triangular: [size][size]
+    std::vector<double> variance;                         ///< [size] diagonal of (R_S' R_S)^-1 = squared row norms of T^-1
 };
 
 /// \param r [k][k] upper triangular, row major  \param subset bits of the columns; at least one
