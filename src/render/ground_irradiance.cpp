@@ -238,13 +238,14 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
     light.stride = tables.stride;
     const auto [lowest_m, highest_m] = scene.terrain->height_range_m();
     const bool rough = highest_m - lowest_m > kRough_m;
-    if (rough) light.sky_view = sky_view(scene);
     if (scene.flame->empty() || settings.flames == GroundLightSettings::Flames::None) {
         light.row_of_cell.assign(light.grid.size(), -1);
+        if (rough) light.sky_view = sky_view(scene, light.row_of_cell);
         return light;
     }
     const LightScene shared(scene, settings);
     const std::vector<std::size_t> cells = receivers(shared, light);
+    if (rough) light.sky_view = sky_view(scene, light.row_of_cell);
     const std::size_t values = cells.size() * static_cast<std::size_t>(light.stride);
     light.irradiance_W_m2_um.resize(values);
     if (tables.has_sky) light.sky_irradiance_W_m2_um.resize(values);

@@ -110,7 +110,7 @@ struct GroundIrradiance {
     std::vector<float> irradiance_W_m2_um;          ///< [row][lambda] by flames
     std::vector<float> sky_irradiance_W_m2_um;      ///< [row][lambda] diffuse sun; empty at night
     std::vector<float> thermal_irradiance_W_m2_um;  ///< [row][lambda] thermal sky and glowing slopes; empty if none
-    std::vector<float> sky_view;                    ///< [map cell] 0 to 1; empty on a plane: 1 everywhere
+    std::vector<float> sky_view;                    ///< [map cell without a row] 0 to 1; empty on a plane
     LightSamplingError sampling_error;
 };
 

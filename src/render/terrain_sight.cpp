@@ -41,10 +41,11 @@ double skyline_slope(const TerrainMesh& terrain, Vec3 from_m, double dx, double 
     }
 }
 
-std::vector<float> sky_view(const RenderScene& scene) {
+std::vector<float> sky_view(const RenderScene& scene, const std::vector<std::int32_t>& row_of_cell) {
     std::vector<float> open(scene.terrain->grid().size(), 1.0F);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, open.size(), 256), [&](const auto& cells) {
         for (std::size_t cell = cells.begin(); cell != cells.end(); ++cell) {
+            if (row_of_cell[cell] >= 0) continue;
             const double hidden_sr = hidden_by_terrain(*scene.terrain, receiver_at(scene, cell), 1, [](Vec3, double) {});
             open[cell] = static_cast<float>(std::clamp(1.0 - hidden_sr / kPi, 0.0, 1.0));
         }

@@ -65,8 +65,9 @@ double hidden_by_terrain(const TerrainMesh& terrain, const Receiver& receiver, i
     return sum_sr;
 }
 
-/// Share of its cosine-weighted hemisphere in which each map cell sees the sky, 0 to 1; exact in elevation.
-std::vector<float> sky_view(const RenderScene& scene);
+/// Share of its cosine-weighted hemisphere in which a map cell sees the sky, 0 to 1; exact in elevation. Only for cells without
+/// a row, which have nothing better; 1 elsewhere. \param row_of_cell  as in GroundIrradiance
+std::vector<float> sky_view(const RenderScene& scene, const std::vector<std::int32_t>& row_of_cell);
 
 /// Terrain that a receiver sees in one of its directions.
 struct TerrainPatch {
