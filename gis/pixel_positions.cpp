@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
+#include <GeographicLib/Ellipsoid.hpp>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -16,8 +17,6 @@
 
 namespace pyroscene::gis {
 namespace {
-
-constexpr double kSemiMajor_m = 6378137.0, kEccentricity2 = 6.69437999014e-3;  // WGS 84
 
 std::string wkt_of(const OGRSpatialReference& crs) {
     char* text = nullptr;
@@ -52,6 +51,7 @@ std::vector<double> geolocation_plane(const char* file, const char* band, const 
 
 /// Spacing of the pixels from central differences, in metres of the local ellipsoid.
 void measure(PixelPositions& out) {
+    const GeographicLib::Ellipsoid& earth = GeographicLib::Ellipsoid::WGS84();
     const auto n = out.lon_deg.size();
     const float none = std::numeric_limits<float>::quiet_NaN();
     out.area_m2.assign(n, none);
@@ -65,10 +65,9 @@ void measure(PixelPositions& out) {
             const int s0 = std::max(sample - 1, 0), s1 = std::min(sample + 1, out.samples - 1);
             const int l0 = std::max(line - 1, 0), l1 = std::min(line + 1, out.lines - 1);
             if (s0 == s1 || l0 == l1) continue;
-            const double lat = out.lat_deg[at(sample, line)] * kDegree_rad,
-                         w = std::sqrt(1.0 - kEccentricity2 * std::pow(std::sin(lat), 2.0));
-            const double east_m = kSemiMajor_m / w * std::cos(lat) * kDegree_rad;
-            const double north_m = kSemiMajor_m * (1.0 - kEccentricity2) / (w * w * w) * kDegree_rad;
+            const double lat_deg = out.lat_deg[at(sample, line)];
+            const double east_m = earth.CircleRadius(lat_deg) * kDegree_rad;
+            const double north_m = earth.MeridionalCurvatureRadius(lat_deg) * kDegree_rad;
             const auto step = [&](std::size_t from, std::size_t to, int pixels) {
                 return std::array{std::remainder(out.lon_deg[to] - out.lon_deg[from], 360.0) * east_m / pixels,
                                   (out.lat_deg[to] - out.lat_deg[from]) * north_m / pixels};

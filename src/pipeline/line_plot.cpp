@@ -6,11 +6,10 @@
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "pipeline/picture_file.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -253,15 +252,7 @@ void write_line_plots(const std::filesystem::path& path, std::span<const LinePlo
         canvas.copyTo(sheet(cv::Rect(0, y, canvas.cols, canvas.rows)));
         y += canvas.rows;
     }
-    AtomicFile file(path);
-    bool written = false;
-    try {
-        written = cv::imwrite(file.path().string(), sheet);
-    } catch (const cv::Exception&) {
-        written = false;
-    }
-    if (!written) throw runtime_error(path.string(), "cannot be written");
-    file.commit();
+    write_picture_file(path, sheet);
 }
 
 }  // namespace pyroscene::pipeline

@@ -1,15 +1,12 @@
 #include "pipeline/quicklook.h"
+#include "pipeline/picture_file.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "base/error.h"
-#include "base/files.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -130,15 +127,7 @@ void write_quicklook(const std::filesystem::path& path, const std::string& capti
         canvas.copyTo(sheet(cv::Rect(x, kMargin + 22, canvas.cols, canvas.rows)));
         x += canvas.cols + kMargin;
     }
-    AtomicFile file(path);
-    bool written = false;
-    try {
-        written = cv::imwrite(file.path().string(), sheet);
-    } catch (const cv::Exception&) {
-        written = false;
-    }
-    if (!written) throw runtime_error(path.string(), "cannot be written");
-    file.commit();
+    write_picture_file(path, sheet);
 }
 
 }  // namespace pyroscene::pipeline
