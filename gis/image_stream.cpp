@@ -22,6 +22,14 @@ struct ImageStream::Impl {
     struct Conversion {
         double scale = 1.0, offset = 0.0, nodata = 0.0;
         bool has_nodata = false;
+
+        void apply(std::span<float> values) const {
+            const auto none = static_cast<float>(nodata);
+            if (has_nodata)
+                for (float& v : values) v = v == none ? std::numeric_limits<float>::quiet_NaN() : v;
+            if (scale != 1.0 || offset != 0.0)
+                for (float& v : values) v = static_cast<float>(scale * static_cast<double>(v) + offset);
+        }
     };
     std::filesystem::path path;
     DatasetPtr dataset;
@@ -67,15 +75,18 @@ void ImageStream::read(int first, int count, std::span<float> out) {
                             static_cast<int>(s.info.bands.size()), nullptr, bytes(1), bytes(line), bytes(plane),
                             nullptr) != CE_None)
         throw input_error(s.path.string(), "cannot be read: " + errors.message());
-    for (std::size_t b = 0; b < s.conversion.size(); ++b) {
-        const Impl::Conversion& c = s.conversion[b];
-        const std::span<float> band = out.subspan(b * plane, plane);
-        const auto nodata = static_cast<float>(c.nodata);
-        if (c.has_nodata)
-            for (float& v : band) v = v == nodata ? std::numeric_limits<float>::quiet_NaN() : v;
-        if (c.scale != 1.0 || c.offset != 0.0)
-            for (float& v : band) v = static_cast<float>(c.scale * static_cast<double>(v) + c.offset);
-    }
+    for (std::size_t b = 0; b < s.conversion.size(); ++b) s.conversion[b].apply(out.subspan(b * plane, plane));
+}
+
+std::vector<float> ImageStream::read_band(int band) {
+    Impl& s = *impl_;
+    std::vector<float> out(static_cast<std::size_t>(s.info.cols) * static_cast<std::size_t>(s.info.rows));
+    const GdalErrors errors;
+    if (s.dataset->GetRasterBand(band)->RasterIO(GF_Read, 0, 0, s.info.cols, s.info.rows, out.data(), s.info.cols,
+                                                 s.info.rows, GDT_Float32, 0, 0, nullptr) != CE_None)
+        throw input_error(s.path.string(), fmt::format("band {} cannot be read: {}", band, errors.message()));
+    s.conversion[static_cast<std::size_t>(band) - 1].apply(out);
+    return out;
 }
 
 }  // namespace pyroscene::gis

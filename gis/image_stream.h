@@ -33,6 +33,8 @@ public:
     /// Lines [first, first + count) as [band][line][sample]; nodata becomes NaN, scale and offset are applied.
     /// Throws an input error naming the file when it cannot be read.
     void read(int first, int count, std::span<float> out);
+    /// One band as a whole, [line][sample]. \param band  from 1
+    [[nodiscard]] std::vector<float> read_band(int band);
 
 private:
     struct Impl;

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -82,18 +84,9 @@ Channel read_channel(gis::ImageStream& image, const FrpJob& job, int number, dou
     const gis::ImageInfo& info = image.info();
     const auto& band = info.bands[static_cast<std::size_t>(number) - 1];
     require_radiance(job, band, number);
-    Channel c{number,
-              band.description.empty() ? fmt::format("band {}", number) : band.description,
-              response_of(job, info, band),
-              {}};
-    const auto line = static_cast<std::size_t>(info.cols);
-    std::vector<float> values(line * info.bands.size());
-    for (int l = 0; l < info.rows; ++l) {
-        image.read(l, 1, values);
-        const auto* first = values.data() + static_cast<std::size_t>(number - 1) * line;
-        for (std::size_t s = 0; s < line; ++s)
-            c.radiance.push_back(static_cast<float>((static_cast<double>(first[s]) - path) / transmittance));
-    }
+    Channel c{number, band.description.empty() ? fmt::format("band {}", number) : band.description,
+              response_of(job, info, band), image.read_band(number)};
+    for (float& L : c.radiance) L = static_cast<float>((static_cast<double>(L) - path) / transmittance);
     return c;
 }
 
@@ -190,45 +183,32 @@ std::int64_t compute(const Scene& s, const Channel& mir, const Channel* tir, dou
     return unsolved;
 }
 
-/// Groups of fire pixels that touch by an edge or a corner.
+/// Groups of fire pixels that touch by an edge or a corner, strongest first.
 std::vector<FireCluster> clusters(const Scene& s, const Planes& planes) {
-    std::vector<unsigned char> left = s.fire;
-    std::vector<FireCluster> fires;
-    std::vector<std::size_t> stack;
-    for (std::size_t start = 0; start < left.size(); ++start) {
-        if (left[start] == 0) continue;
-        FireCluster fire;
-        double weights = 0.0;
-        stack.assign(1, start);
-        left[start] = 0;
-        while (!stack.empty()) {
-            const std::size_t i = stack.back();
-            stack.pop_back();
-            const double power = std::isfinite(planes.frp_MW[i]) ? static_cast<double>(planes.frp_MW[i]) : 0.0,
-                         weight = std::max(power, 1e-12);
-            ++fire.pixels;
-            fire.frp_MW += power;
-            if (std::isfinite(s.where.area_m2[i])) fire.area_ha += static_cast<double>(s.where.area_m2[i]) * 1e-4;
-            fire.lon_deg += weight * s.where.lon_deg[i];
-            fire.lat_deg += weight * s.where.lat_deg[i];
-            weights += weight;
-            const int sample = static_cast<int>(i % static_cast<std::size_t>(s.where.samples)),
-                      line = static_cast<int>(i / static_cast<std::size_t>(s.where.samples));
-            for (int l = std::max(line - 1, 0); l <= std::min(line + 1, s.where.lines - 1); ++l) {
-                for (int c = std::max(sample - 1, 0); c <= std::min(sample + 1, s.where.samples - 1); ++c) {
-                    const auto next = static_cast<std::size_t>(l) * static_cast<std::size_t>(s.where.samples) +
-                                      static_cast<std::size_t>(c);
-                    if (left[next] == 0) continue;
-                    left[next] = 0;
-                    stack.push_back(next);
-                }
-            }
-        }
-        fire.lon_deg /= weights;
-        fire.lat_deg /= weights;
-        fires.push_back(fire);
+    const cv::Mat fire(s.where.lines, s.where.samples, CV_8UC1, const_cast<unsigned char*>(s.fire.data()));  // read only
+    cv::Mat labels;
+    const int count = cv::connectedComponents(fire, labels, 8, CV_32S);
+    std::vector<FireCluster> fires(static_cast<std::size_t>(count - 1));
+    std::vector<double> weights(fires.size(), 0.0);
+    for (std::size_t i = 0; i < s.fire.size(); ++i) {
+        if (s.fire[i] == 0) continue;
+        const auto label = static_cast<std::size_t>(labels.at<int>(static_cast<int>(i)) - 1);
+        FireCluster& of = fires[label];
+        const double power = std::isfinite(planes.frp_MW[i]) ? static_cast<double>(planes.frp_MW[i]) : 0.0;
+        const double weight = std::max(power, 1e-12);
+        ++of.pixels;
+        of.frp_MW += power;
+        if (std::isfinite(s.where.area_m2[i])) of.area_ha += static_cast<double>(s.where.area_m2[i]) * 1e-4;
+        of.lon_deg += weight * s.where.lon_deg[i];
+        of.lat_deg += weight * s.where.lat_deg[i];
+        weights[label] += weight;
     }
-    std::sort(fires.begin(), fires.end(), [](const FireCluster& a, const FireCluster& b) { return a.frp_MW > b.frp_MW; });
+    for (std::size_t f = 0; f < fires.size(); ++f) {
+        fires[f].lon_deg /= weights[f];
+        fires[f].lat_deg /= weights[f];
+    }
+    std::stable_sort(fires.begin(), fires.end(),
+                     [](const FireCluster& a, const FireCluster& b) { return a.frp_MW > b.frp_MW; });
     return fires;
 }
 
