@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "physics/test_scene.h"
 #include "radiometry/planck.h"
+#include "source_folder.h"
 
 namespace pyroscene::test {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 const std::vector<double> kLambda_um{0.7665, 0.9, 1.38, 2.2, 2.7, 3.9, 4.19, 4.3, 4.5, 6.3, 8.5, 10.6, 14.0};
 
 std::shared_ptr<const radiometry::FlameOptics> tables() {
-    static const auto loaded = std::make_shared<const radiometry::FlameOptics>(
-        radiometry::load_flame_optics(std::filesystem::path(PYROSCENE_TEST_SOURCE_DIR) / "data/optical"));
+    static const auto loaded =
+        std::make_shared<const radiometry::FlameOptics>(radiometry::load_flame_optics(source_folder() / "data/optical"));
     return loaded;
 }
 

@@ -39,8 +39,6 @@ CommandResult pyroscene_cli(const std::string& arguments) {
     return run_command(std::string(PYROSCENE_BINARY) + " " + arguments);
 }
 
-std::filesystem::path source_folder() { return PYROSCENE_TEST_SOURCE_DIR; }
-
 void write_band(const std::filesystem::path& file, const MapGrid& grid, const std::string& unit,
                 const std::function<double(double, double)>& value,
                 const std::map<std::string, std::string>& band_metadata) {

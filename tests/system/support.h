@@ -6,6 +6,7 @@
 
 #include "base/raster.h"
 #include "gis/raster_output.h"
+#include "source_folder.h"
 
 namespace pyroscene::test {
 
@@ -31,8 +32,6 @@ struct CommandResult {
 CommandResult run_command(const std::string& command);
 /// Runs the program that was built with the tests.
 CommandResult pyroscene_cli(const std::string& arguments);
-
-std::filesystem::path source_folder();
 
 /// Writes one float band on a map grid; `value(x_m, y_m)` is taken at cell centres.
 void write_band(const std::filesystem::path& file, const MapGrid& grid, const std::string& unit,

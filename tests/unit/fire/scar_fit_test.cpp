@@ -9,12 +9,13 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "source_folder.h"
 
 namespace pyroscene::fire {
 namespace {
 
 ScarRecord shipped_record() {
-    const auto table = read_csv(std::filesystem::path(PYROSCENE_TEST_SOURCE_DIR) / "tests/data/burnscar_synthetic.csv");
+    const auto table = read_csv(source_folder() / "tests/data/burnscar_synthetic.csv");
     ScarRecord record{table.numbers("t_s"), table.numbers("T_C")};
     for (double& T : record.temperature_K) T += kZeroCelsius_K;
     return record;

@@ -6,14 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "source_folder.h"
 #include "unit/gis/source_raster.h"
 
 namespace pyroscene::gis {
 namespace {
 
 std::filesystem::path default_atmosphere() {
-    return std::filesystem::path(PYROSCENE_TEST_SOURCE_DIR) /
-           "data/atmosphere/lowtran7_midlatitude_summer_rural23_ground0.nc";
+    return source_folder() / "data/atmosphere/lowtran7_midlatitude_summer_rural23_ground0.nc";
 }
 
 TEST(NetCdf, ReadsATableWithItsDimensionsInFileOrder) {

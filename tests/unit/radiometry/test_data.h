@@ -8,10 +8,9 @@
 #include "base/spectrum.h"
 #include "gis/netcdf_input.h"
 #include "radiometry/atmosphere.h"
+#include "source_folder.h"
 
 namespace pyroscene::radiometry {
-
-inline std::filesystem::path source_folder() { return PYROSCENE_TEST_SOURCE_DIR; }
 
 inline Spectrum boxcar(double lower_um, double upper_um) { return {Quantity::Response, {lower_um, upper_um}, {1.0, 1.0}}; }
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "radiometry/planck.h"
+#include "source_folder.h"
 
 namespace pyroscene::render {
 extern const SpectralKernels portable_spectral_kernels;
@@ -15,8 +16,7 @@ extern const SpectralKernels portable_spectral_kernels;
 namespace {
 
 const radiometry::FlameOptics& optics() {
-    static const auto loaded =
-        radiometry::load_flame_optics(std::filesystem::path(PYROSCENE_TEST_SOURCE_DIR) / "data/optical");
+    static const auto loaded = radiometry::load_flame_optics(source_folder() / "data/optical");
     return loaded;
 }
 

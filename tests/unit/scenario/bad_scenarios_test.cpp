@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "scenario/scenario.h"
+#include "source_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -32,7 +33,7 @@ BadScenario read_announcement(const fs::path& path) {
 
 std::vector<BadScenario> bad_scenarios() {
     std::vector<BadScenario> all;
-    for (const auto& entry : fs::directory_iterator(fs::path(PYROSCENE_TEST_SOURCE_DIR) / "scenarios" / "bad"))
+    for (const auto& entry : fs::directory_iterator(source_folder() / "scenarios" / "bad"))
         if (entry.path().extension() == ".yaml") all.push_back(read_announcement(entry.path()));
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
     return all;

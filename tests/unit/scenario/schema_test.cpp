@@ -11,6 +11,7 @@
 #include "config/scalar.h"
 #include "scenario_folder.h"
 #include "schema_walk.h"
+#include "source_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -206,7 +207,7 @@ std::string trimmed(const std::string& text) {
 
 std::map<std::string, DocumentedKey> documented_keys() {
     std::map<std::string, DocumentedKey> found;
-    std::ifstream in(fs::path(PYROSCENE_TEST_SOURCE_DIR) / "docs" / "scenario.md");
+    std::ifstream in(source_folder() / "docs" / "scenario.md");
     for (std::string line; std::getline(in, line);) {
         if (!line.starts_with("| `")) continue;
         std::vector<std::string> cells;

@@ -1,13 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "scenario/scenario.h"
+#include "source_folder.h"
 
 namespace fs = std::filesystem;
 
 namespace pyroscene::scenario {
 
 namespace {
-Scenario shipped(const std::string& file) { return load(fs::path(PYROSCENE_TEST_SOURCE_DIR) / "scenarios" / file); }
+Scenario shipped(const std::string& file) { return load(source_folder() / "scenarios" / file); }
 }  // namespace
 
 TEST(ShippedScenarios, LoloPeakIsTheMainExample) {
