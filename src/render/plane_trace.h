@@ -29,6 +29,9 @@ struct PlaneTrace {
     float opaque_m = 0.0F;           ///< fill x length beyond which nothing more is seen
     /// [node][moment][stratum] += weight tau (1 - exp(-k fill length)) T_moment(p)
     float* sums = nullptr;
+    /// [node][stratum], where all strata meet the hottest flame (p = -1) or none: most voxels of most fires. Its moments,
+    /// T_m(-1) = (-1)^m, are left to the caller. Unused with one moment.
+    float* hottest = nullptr;
 };
 
 }  // namespace pyroscene::render

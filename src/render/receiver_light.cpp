@@ -79,6 +79,7 @@ ReceiverLight::ReceiverLight(const LightScene& shared)
       kernels_(&spectral_kernels()),
       emitted_(static_cast<std::size_t>(shared.nodes.count()) * static_cast<std::size_t>(shared.planck.moments())) {
     sums_.resize(emitted_.size() * kStrata);
+    hottest_.resize(static_cast<std::size_t>(shared.nodes.count()) * kStrata);
 }
 
 bool ReceiverLight::is_near_flame(const Receiver& receiver) const {
@@ -161,6 +162,7 @@ void ReceiverLight::merge_arcs() {
 
 void ReceiverLight::compute(const Receiver& receiver) {
     std::fill(sums_.begin(), sums_.end(), 0.0F);
+    std::fill(hottest_.begin(), hottest_.end(), 0.0F);
     const int around = shared_->settings.directions;
     if (!is_near_flame(receiver)) {
         compute_point(receiver.x_m, receiver.y_m, receiver, around, 1.0);
@@ -174,10 +176,15 @@ void ReceiverLight::compute(const Receiver& receiver) {
                           std::max(4, around / kPlanesNearFlame), 1.0 / kPointsNearFlame);
         }
     }
-    for (std::size_t i = 0; i < emitted_.size(); ++i) {
+    const auto over_strata = [](const std::vector<float>& sums, std::size_t i) {
         float sum = 0.0F;
-        for (int s = 0; s < kStrata; ++s) sum += sums_[i * kStrata + static_cast<std::size_t>(s)];
-        emitted_[i] = sum;
+        for (int s = 0; s < kStrata; ++s) sum += sums[i * kStrata + static_cast<std::size_t>(s)];
+        return sum;
+    };
+    const auto moments = static_cast<std::size_t>(shared_->planck.moments());
+    for (std::size_t i = 0; i < emitted_.size(); ++i) {
+        const float hottest = over_strata(hottest_, i / moments);
+        emitted_[i] = over_strata(sums_, i) + (i % moments % 2 == 0 ? hottest : -hottest);
     }
 }
 
@@ -227,6 +234,7 @@ void ReceiverLight::trace_plane(Vec3 from_m, const Receiver& receiver, double az
     trace.moments = shared_->planck.moments();
     trace.opaque_m = static_cast<float>(kOpaqueDepth) / shared_->nodes.k_per_m().front();
     trace.sums = sums_.data();
+    trace.hottest = hottest_.data();
     kernels_->trace_plane(trace);
 }
 

@@ -58,7 +58,8 @@ private:
     const SpectralKernels* kernels_;
     std::vector<Arc> arcs_;
     std::vector<PlaneColumn> columns_;
-    std::vector<float> sums_;  ///< [node][moment][stratum]
+    std::vector<float> sums_;     ///< [node][moment][stratum]
+    std::vector<float> hottest_;  ///< [node][stratum], see PlaneTrace
     std::vector<float> emitted_;
 };
 
