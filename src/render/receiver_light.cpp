@@ -5,13 +5,14 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "base/random.h"
 
 namespace pyroscene::render {
 namespace {
 
-constexpr int kPointsNearFlame = 8;
-constexpr int kPlanesNearFlame = 4;  ///< a point near flame has this many times fewer planes
-constexpr int kLeastPlanes = 8;      ///< through a flame however narrow it looks, or an eighth of all
+constexpr double kPointsPerDirection = 0.75;  ///< in a cell near flame
+constexpr int kLeastPlanes = 8;               ///< through a flame however narrow it looks, or an eighth of all
+constexpr double kCompact = 0.3;              ///< share of the circle below which flame is looked for by its arcs
 constexpr int kStrata = PlaneTrace::kLanes;
 constexpr float kLeastSlope = 1e-6F;
 constexpr double kOpaqueDepth = 9.0;
@@ -163,19 +164,10 @@ void ReceiverLight::merge_arcs() {
 void ReceiverLight::compute(const Receiver& receiver) {
     std::fill(sums_.begin(), sums_.end(), 0.0F);
     std::fill(hottest_.begin(), hottest_.end(), 0.0F);
-    const int around = shared_->settings.directions;
-    if (!is_near_flame(receiver)) {
-        compute_point(receiver.x_m, receiver.y_m, receiver, around, 1.0);
-    } else {
-        const double cell_m = shared_->scene.terrain->grid().cell_m;
-        for (int p = 0; p < kPointsNearFlame; ++p) {
-            // Additive recurrence with the plastic number (Roberts 2018): even over the cell.
-            const double u = 0.5 + 0.7548776662466927 * p, v = 0.5 + 0.5698402909980532 * p;
-            compute_point(receiver.x_m + (u - std::floor(u) - 0.5) * cell_m,
-                          receiver.y_m + (v - std::floor(v) - 0.5) * cell_m, receiver,
-                          std::max(4, around / kPlanesNearFlame), 1.0 / kPointsNearFlame);
-        }
-    }
+    if (is_near_flame(receiver))
+        compute_cell(receiver);
+    else
+        compute_centre(receiver);
     const auto over_strata = [](const std::vector<float>& sums, std::size_t i) {
         float sum = 0.0F;
         for (int s = 0; s < kStrata; ++s) sum += sums[i * kStrata + static_cast<std::size_t>(s)];
@@ -188,7 +180,39 @@ void ReceiverLight::compute(const Receiver& receiver) {
     }
 }
 
-void ReceiverLight::compute_point(double x_m, double y_m, const Receiver& receiver, int planes_around, double weight) {
+/// Beside a flame irradiance varies within the cell far more than with azimuth: many points, each with two planes, through
+/// the whole circle or through each arc where flame fills little of it. Additive recurrences spread points (plastic number, Roberts 2018) and azimuths (golden ratio) evenly; every cell
+/// starts them elsewhere, so that cells do not err alike where the flame's voxels repeat with the cells.
+void ReceiverLight::compute_cell(const Receiver& receiver) {
+    static const std::uint32_t kStream = stream_id("light near flame");
+    const RandomKey key{.stream = kStream};
+    const double cell_m = shared_->scene.terrain->grid().cell_m;
+    const int points = std::max(8, static_cast<int>(kPointsPerDirection * shared_->settings.directions));
+    find_arcs(receiver.x_m, receiver.y_m);
+    double covered = 0.0;
+    for (const Arc arc : arcs_) covered += 0.25 * (arc.end - arc.begin);
+    const bool compact = covered < kCompact;
+    if (!compact) arcs_.assign(1, {0.0, 4.0});
+    const auto place = [&](std::uint32_t axis, double step, int p) {
+        const double at = uniform01(key, receiver.cell, axis) + step * p;
+        return at - std::floor(at);
+    };
+    for (int p = 0; p < points; ++p) {
+        const double x_m = receiver.x_m + (place(0, 0.7548776662466927, p) - 0.5) * cell_m;
+        const double y_m = receiver.y_m + (place(1, 0.5698402909980532, p) - 0.5) * cell_m;
+        const Vec3 from{x_m, y_m, shared_->scene.terrain->height_at(x_m, y_m)};
+        if (compact) find_arcs(x_m, y_m);
+        for (const Arc arc : arcs_) {
+            const double begin = azimuth_of_diamond(arc.begin), half = 0.5 * (azimuth_of_diamond(arc.end) - begin);
+            const double azimuth = begin + half * place(2, 0.6180339887498949, p);
+            for (const double side : {0.0, half}) trace_plane(from, receiver, azimuth + side, half / points);
+        }
+    }
+}
+
+void ReceiverLight::compute_centre(const Receiver& receiver) {
+    const double x_m = receiver.x_m, y_m = receiver.y_m;
+    const int planes_around = shared_->settings.directions;
     find_arcs(x_m, y_m);
     const Vec3 from{x_m, y_m, shared_->scene.terrain->height_at(x_m, y_m)};
     for (const Arc arc : arcs_) {
@@ -196,7 +220,7 @@ void ReceiverLight::compute_point(double x_m, double y_m, const Receiver& receiv
         const int planes = std::max({kLeastPlanes, planes_around / kLeastPlanes,
                                      static_cast<int>(std::ceil((end - begin) / (2.0 * kPi) * planes_around - 1e-9))});
         const double width = (end - begin) / planes;
-        for (int p = 0; p < planes; ++p) trace_plane(from, receiver, begin + (p + 0.5) * width, weight * width);
+        for (int p = 0; p < planes; ++p) trace_plane(from, receiver, begin + (p + 0.5) * width, width);
     }
 }
 

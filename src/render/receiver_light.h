@@ -27,7 +27,7 @@ struct LightScene {
 
 /// Light of the flames on receivers. The hemisphere is cut into vertical planes that are spent only on azimuths where flame
 /// stands; within a plane the elevations between the lowest and highest flame are cut into strata, each traced once through
-/// its columns; the weight of a stratum is exact. Cells next to flame are sampled at several points with fewer planes each,
+/// its columns; the weight of a stratum is exact. Cells next to flame are sampled at many points with two planes each,
 /// so that the result is the mean over the cell where it varies within the cell. One per thread.
 class ReceiverLight {
 public:
@@ -45,7 +45,8 @@ private:
     };
 
     [[nodiscard]] bool is_near_flame(const Receiver& receiver) const;
-    void compute_point(double x_m, double y_m, const Receiver& receiver, int planes_around, double weight);
+    void compute_cell(const Receiver& receiver);
+    void compute_centre(const Receiver& receiver);
     void find_arcs(double x_m, double y_m);
     bool add_arc(const FlameColumns::Box& box, double x_m, double y_m);
     void merge_arcs();

@@ -14,6 +14,7 @@ Receiver receiver_at(const RenderScene& scene, std::size_t cell) {
     const int row = static_cast<int>(cell / static_cast<std::size_t>(grid.cols));
     const int col = static_cast<int>(cell % static_cast<std::size_t>(grid.cols));
     Receiver receiver;
+    receiver.cell = cell;
     receiver.x_m = grid.x_centre_m(col) - scene.scene_origin_m.x;
     receiver.y_m = grid.y_centre_m(row) - scene.scene_origin_m.y;
     const double half_m = 0.499 * grid.cell_m;

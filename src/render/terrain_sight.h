@@ -13,6 +13,7 @@ struct SceneTables;
 
 /// A piece of ground that receives light: a map cell with its mean slope.
 struct Receiver {
+    std::size_t cell = 0;         ///< of the map grid
     double x_m = 0.0, y_m = 0.0;  ///< centre, scene frame
     Vec3 normal{0.0, 0.0, 1.0};
 };
