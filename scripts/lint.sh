@@ -6,6 +6,6 @@ set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 jobs=${PYROSCENE_JOBS:-$(nproc)}
 files=("$@")
-((${#files[@]})) || mapfile -t files < <(find src/base src/fire src/radiometry src/analysis -name '*.cpp' | sort)
+((${#files[@]})) || mapfile -t files < <(find src/base src/fire src/spread src/radiometry src/analysis -name '*.cpp' | sort)
 [[ -f build/dev/compile_commands.json ]] || { echo "lint: run scripts/test.sh first, build/dev is not configured" >&2; exit 1; }
 printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$jobs" clang-tidy -p build/dev --quiet --warnings-as-errors='*'

@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "cli/calc.h"
 #include "cli/flame_calculations.h"
+#include "cli/spread_calculation.h"
 #include "fire/scar.h"
 #include "gis/netcdf_input.h"
 #include "pipeline/line_plot.h"
@@ -224,6 +225,7 @@ const std::vector<Calculation>& calculations() {
          flame_emissivity},
         flame_height_calculation(),
         flame_tilt_calculation(),
+        spread_calculation(),
         {"scar-temperature",
          "burn scar cooling: double_exponential (thesis eq 4.17, numbers of 4.18) or single_exponential (2.9 with ambient)",
          {{"time_s", {}},

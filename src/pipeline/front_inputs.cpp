@@ -2,14 +2,12 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
-#include "base/csv.h"
-#include "base/files.h"
 #include "fire/flame_height.h"
 #include "fire/gradients.h"
 #include "fire/residence_time.h"
 #include "gis/raster_input.h"
+#include "spread/fuel_model.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -68,22 +66,10 @@ std::optional<Raster<float>> residence_time(const Scenario& s, const MapGrid& gr
 }  // namespace
 
 std::map<int, double> fuel_residence_times_s(const std::string& table) {
-    const auto csv = read_csv(data_folder() / "fuel" / "fuel_models_53.csv");
-    const auto number = csv.numbers("number");
-    std::vector<std::vector<double>> loads, ratios;
-    for (const std::string size : {"1h", "10h", "100h", "herb", "woody"}) {
-        loads.push_back(csv.numbers("load_" + size + "_kg_m2"));
-        ratios.push_back(csv.numbers("sav_" + size + "_1_m"));
-    }
     std::map<int, double> times_s;
-    for (std::size_t i = 0; i < number.size(); ++i) {
-        const int code = static_cast<int>(number[i]);
-        if ((code <= kLastAndersonModel) != (table == "fbfm13")) continue;
-        std::vector<fire::FuelParticles> bed;
-        for (std::size_t size = 0; size < loads.size(); ++size) bed.push_back({loads[size][i], ratios[size][i]});
-        const double time_s = fire::residence_time_s(fire::characteristic_surface_to_volume_per_m(bed));
-        if (time_s > 0.0) times_s[code] = time_s;
-    }
+    for (const auto& [number, model] : spread::standard_fuel_models())
+        if ((number <= kLastAndersonModel) == (table == "fbfm13"))
+            times_s[number] = fire::residence_time_s(model.characteristic_surface_to_volume_per_m());
     return times_s;
 }
 
