@@ -15,7 +15,7 @@ struct QuicklookPanel {
     bool logarithmic = false;   ///< colour scale
 };
 
-/// PNG with the panels side by side, each with a colour bar, its numbers and a scale bar in metres; marked as synthetic.
+/// PNG with the panels side by side (more than three in two rows), each with a colour bar, its numbers and a scale bar in metres; marked as synthetic.
 /// Throws a runtime error naming the file.
 void write_quicklook(const std::filesystem::path& path, const std::string& caption, std::span<const QuicklookPanel> panels,
                      double pixel_m);
