@@ -37,6 +37,7 @@ ColourScale scale_of(const QuicklookPanel& panel) {
     for (const float v : panel.values)
         if (std::isfinite(v)) valid.push_back(v);
     ColourScale scale;
+    if (panel.lowest && panel.highest) return {*panel.lowest, *panel.highest, panel.logarithmic && *panel.lowest > 0.0};
     if (valid.empty()) return scale;
     std::sort(valid.begin(), valid.end());
     scale.low = valid[valid.size() / 200];
@@ -94,7 +95,7 @@ cv::Mat draw_panel(const QuicklookPanel& panel, double pixel_m) {
     picture.copyTo(canvas(cv::Rect(0, kHeader, picture.cols, picture.rows)));
     text(canvas, panel.title, {2, kHeader - 10}, 0.5);
     draw_colour_bar(canvas, cv::Rect(picture.cols + kMargin, kHeader, kBarWidth, picture.rows), scale, panel.unit);
-    draw_scale_bar(canvas, 4, kHeader + picture.rows + 12, picture.cols, pixel_m / factor);
+    if (pixel_m > 0.0) draw_scale_bar(canvas, 4, kHeader + picture.rows + 12, picture.cols, pixel_m / factor);
     return canvas;
 }
 
