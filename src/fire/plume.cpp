@@ -92,7 +92,14 @@ private:
     }
 };
 
-/// Voxels above the threshold, as gas and smoke.
+/// Smoke of a layer in the voxels of index k.
+float overlap_g_m3(const SmokeLayer& layer, const VoxelGrid& grid, int k) {
+    const double bottom_m = grid.corner_m.z + k * grid.dz_m;
+    const double inside_m = std::min(layer.top_m, bottom_m + grid.dz_m) - std::max(layer.bottom_m, bottom_m);
+    return static_cast<float>(layer.concentration_g_m3 * std::max(inside_m, 0.0) / grid.dz_m);
+}
+
+/// Voxels above the threshold, as gas and smoke, and those of layers.
 FlameField voxels_of(const Lattice& lattice, const PlumeParameters& p) {
     const double smoke_g_per_K_m3 =
         p.air_density_kg_m3 * p.air_heat_capacity_J_kg_K * p.emission_factor_g_kg / p.heat_of_combustion_J_kg;
@@ -106,6 +113,13 @@ FlameField voxels_of(const Lattice& lattice, const PlumeParameters& p) {
                 voxels.push_back(
                     {i, j, k, p.uniform ? 1.0F : static_cast<float>(smoke_g_per_K_m3 * excess_K), static_cast<float>(T_K)});
             }
+    for (const SmokeLayer& layer : p.layers)
+        for (int k = 0; k < lattice.nz; ++k) {
+            const float fill = overlap_g_m3(layer, lattice.grid, k);
+            for (int j = 0; fill > 0.0F && j < lattice.grid.ny; ++j)
+                for (int i = 0; i < lattice.grid.nx; ++i)
+                    voxels.push_back({i, j, k, fill, static_cast<float>(layer.temperature_K)});
+        }
     if (voxels.empty()) return {};
     return make_flame_field(lattice.grid, voxels);
 }
@@ -204,6 +218,29 @@ FlameField rising_plume(const FrameInputs& frame, const Raster<float>& terrain_m
         }
     }
     return voxels_of(lattice, p);
+}
+
+FlameField layers_alone(const Raster<float>& terrain_m, const PlumeParameters& p, Vec3 scene_origin) {
+    check(p);
+    constexpr double kWidth_m = 1e5;
+    const MapGrid& map = terrain_m.grid;
+    double lowest_m = std::numeric_limits<double>::max(), top_m = -lowest_m;
+    for (const float height_m : terrain_m.values)
+        if (!std::isnan(height_m)) lowest_m = std::min(lowest_m, static_cast<double>(height_m));
+    for (const SmokeLayer& layer : p.layers) top_m = std::max(top_m, layer.top_m);
+    const double dz_m = p.voxel_m[2], bottom_m = std::floor(lowest_m / dz_m) * dz_m;
+    const double west_m = 0.5 * (map.west_m + map.east_m() - kWidth_m) - scene_origin.x,
+                 south_m = 0.5 * (map.south_m() + map.north_m - kWidth_m) - scene_origin.y;
+    const VoxelGrid grid{
+        .corner_m = {west_m, south_m, bottom_m}, .nx = 1, .ny = 1, .dx_m = kWidth_m, .dy_m = kWidth_m, .dz_m = dz_m};
+    std::vector<FlameVoxel> voxels;
+    for (int k = 0; bottom_m + k * dz_m < top_m; ++k)
+        for (const SmokeLayer& layer : p.layers) {
+            const float fill = overlap_g_m3(layer, grid, k);
+            if (fill > 0.0F) voxels.push_back({0, 0, k, fill, static_cast<float>(layer.temperature_K)});
+        }
+    if (voxels.empty()) return {};
+    return make_flame_field(grid, voxels);
 }
 
 double excess_of_buoyancy_K(double buoyancy_m_s2, double air_K) noexcept { return buoyancy_m_s2 * air_K / kGravity_m_s2; }

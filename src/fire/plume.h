@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/raster.h"
 #include "base/vec3.h"
@@ -10,6 +11,12 @@
 #include "fire/state.h"
 
 namespace pyroscene::fire {
+
+/// Horizontally uniform smoke or haze.
+struct SmokeLayer {
+    double bottom_m = 0.0, top_m = 0.0;  ///< heights of the scene frame (the terrain's datum)
+    double concentration_g_m3 = 0.0, temperature_K = 300.0;
+};
 
 /// Hot gas and smoke above the flames. Sources of the numbers: docs/physics-fire.md.
 struct PlumeParameters {
@@ -25,6 +32,7 @@ struct PlumeParameters {
     double heat_of_combustion_J_kg = 17.433e6;  ///< heat per fuel burnt: smoke per heat is the ratio of the two
     std::optional<double> temperature_K;        ///< of every voxel, instead of the computed one (thesis: 795 K)
     bool uniform = false;                       ///< every voxel has fill 1 (absorption given per metre of plume)
+    std::vector<SmokeLayer> layers;  ///< added to the voxels by exact overlap, as far as the plume's lattice reaches
 };
 
 /// Excess over the air of a bent-over plume and where it is; the parts of a trajectory.
@@ -46,6 +54,10 @@ std::vector<PlumePoint> plume_axis(double heat_W, double radius_m, double wind_m
 /// \param scene_origin  map coordinates of the scene frame's origin
 FlameField rising_plume(const FrameInputs& frame, const Raster<float>& terrain_m, const PlumeParameters& parameters,
                         Vec3 scene_origin);
+
+/// Layers without a plume: voxels of voxel_m[2] height and 100 km width around the map, from its lowest ground up, so that
+/// slanted rays and the sun cross the layers outside the map too.
+FlameField layers_alone(const Raster<float>& terrain_m, const PlumeParameters& parameters, Vec3 scene_origin);
 
 /// Excess temperature from buoyancy b [m s-2]:  dT = b T_air / g.
 double excess_of_buoyancy_K(double buoyancy_m_s2, double air_K) noexcept;

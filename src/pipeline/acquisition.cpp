@@ -188,7 +188,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
 
     const auto soot = radiometry::load_soot_optics(data_folder() / "optical" / "soot_optics.csv");
     optics.gas = fire.gas;
-    if (!fire.plume.empty()) optics.smoke_absorption_per_m = plume_absorption_per_m(scenario, out.grid);
+    if (!fire.plume.empty()) set_plume_optics(scenario, out.grid, optics);
     optics.grey = scenario.flame.grey_absorption_per_m.has_value();
     for (const double lambda_um : optics.lambda_um)
         optics.flame_absorption_per_m.push_back(static_cast<float>(

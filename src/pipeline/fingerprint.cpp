@@ -88,6 +88,9 @@ std::string plume_text(const Scenario& s) {
                                   p.top_m, p.duration_s, p.minimum_excess_K, p.entrainment, p.merge_m,
                                   p.emission_factor_g_kg, p.heat_of_combustion_J_kg, p.temperature_K.value_or(-1.0),
                                   s.plume.smoke, s.plume.grey_absorption_per_m.value_or(-1.0));
+    for (const auto& layer : s.plume.layers)
+        out += fmt::format("{}|{}|{}|{}|{};", layer.bottom_m, layer.top_m, layer.concentration_g_m3.value_or(-1.0),
+                           layer.optical_depth_550nm, layer.temperature_K.value_or(-1.0));
     if (const auto& in = s.inputs.plume)
         out += fmt::format("{}|{}|{}|{};", fmt::join(in->times_s, ","), fmt::join(in->levels_m, ","),
                            static_cast<int>(in->quantity), in->variable);

@@ -35,7 +35,29 @@ void to_excess_K(Raster<float>& level, PlumeSource::Quantity quantity, double ai
     }
 }
 
-fire::FlameField plume_of_input(const Scenario& scenario, const SceneInputs& in, double time_s) {
+radiometry::SmokeOptics smoke_of(const Scenario& scenario) {
+    return radiometry::load_smoke_optics(data_folder() / "optical" / "smoke_optics_fine.csv", scenario.plume.smoke);
+}
+
+/// With the layers as concentrations.
+fire::PlumeParameters parameters_of(const Scenario& scenario) {
+    constexpr double kNominal_um = 0.55;
+    auto p = scenario.plume.parameters;
+    for (const auto& layer : scenario.plume.layers) {
+        const double thickness_m = layer.top_m - layer.bottom_m;
+        const double concentration_g_m3 =
+            layer.concentration_g_m3
+                ? *layer.concentration_g_m3
+                : layer.optical_depth_550nm / thickness_m /
+                      radiometry::smoke_coefficients(smoke_of(scenario), kNominal_um, 1.0).extinction_per_m;
+        p.layers.push_back(
+            {layer.bottom_m, layer.top_m, concentration_g_m3, layer.temperature_K.value_or(p.air_temperature_K)});
+    }
+    return p;
+}
+
+fire::FlameField plume_of_input(const Scenario& scenario, const fire::PlumeParameters& p, const SceneInputs& in,
+                                double time_s) {
     const PlumeSource& source = *scenario.inputs.plume;
     const auto file = file_at(source, time_s);
     const auto bands = gis::read_info(file).bands.size();
@@ -43,7 +65,6 @@ fire::FlameField plume_of_input(const Scenario& scenario, const SceneInputs& in,
         throw input_error("inputs.plume.levels_m", fmt::format("{} heights, but '{}' has {} bands; each is a level",
                                                                source.levels_m.size(), file.string(), bands));
     const char* unit = source.quantity == PlumeSource::Quantity::Buoyancy ? "" : "K";
-    const auto& p = scenario.plume.parameters;
     std::vector<Raster<float>> levels;
     for (std::size_t b = 0; b < bands; ++b) {
         levels.push_back(gis::read_band({file, static_cast<int>(b) + 1, gis::Resampling::Bilinear, "plume", unit}, in.grid));
@@ -55,21 +76,26 @@ fire::FlameField plume_of_input(const Scenario& scenario, const SceneInputs& in,
 }  // namespace
 
 fire::FlameField make_plume(const Scenario& scenario, const SceneInputs& in, double time_s) {
-    if (scenario.inputs.plume) return plume_of_input(scenario, in, time_s);
-    if (!scenario.plume.rise) return {};
+    const auto p = parameters_of(scenario);
+    if (scenario.inputs.plume) return plume_of_input(scenario, p, in, time_s);
+    if (!scenario.plume.rise)
+        return p.layers.empty() ? fire::FlameField{} : fire::layers_alone(in.terrain_m, p, in.origin_m);
     const auto frame = load_frame(scenario, in, frame_at(in.frames, time_s, "plume"));
-    return fire::rising_plume(frame, in.terrain_m, scenario.plume.parameters, in.origin_m);
+    return fire::rising_plume(frame, in.terrain_m, p, in.origin_m);
 }
 
-std::vector<float> plume_absorption_per_m(const Scenario& scenario, const radiometry::SpectralGrid& grid) {
-    const auto n = static_cast<std::size_t>(grid.size());
-    if (const auto& grey = scenario.plume.grey_absorption_per_m) return std::vector<float>(n, static_cast<float>(*grey));
-    const auto smoke =
-        radiometry::load_smoke_optics(data_folder() / "optical" / "smoke_optics_fine.csv", scenario.plume.smoke);
-    std::vector<float> absorption;
-    for (const double lambda_um : grid.lambda_um)
-        absorption.push_back(static_cast<float>(radiometry::smoke_absorption_m2_g(smoke, lambda_um)));
-    return absorption;
+void set_plume_optics(const Scenario& scenario, const radiometry::SpectralGrid& grid, render::SceneOptics& optics) {
+    if (const auto& grey = scenario.plume.grey_absorption_per_m) {
+        optics.smoke_extinction_per_m.assign(static_cast<std::size_t>(grid.size()), static_cast<float>(*grey));
+        return;
+    }
+    const auto smoke = smoke_of(scenario);
+    for (const double lambda_um : grid.lambda_um) {
+        const auto at = radiometry::smoke_coefficients(smoke, lambda_um, 1.0);
+        optics.smoke_extinction_per_m.push_back(static_cast<float>(at.extinction_per_m));
+        optics.smoke_albedo.push_back(static_cast<float>(at.single_scattering_albedo));
+        optics.smoke_asymmetry.push_back(static_cast<float>(at.asymmetry));
+    }
 }
 
 }  // namespace pyroscene::pipeline

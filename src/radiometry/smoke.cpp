@@ -42,12 +42,6 @@ SmokeOptics load_smoke_optics(const std::filesystem::path& path, std::string_vie
     return {column("mee"), column("ssa"), column("g")};
 }
 
-double smoke_absorption_m2_g(const SmokeOptics& smoke, double lambda_um) noexcept {
-    const auto& range = smoke.extinction_m2_g.lambda_um;
-    const double at_um = std::clamp(lambda_um, range.front(), range.back());
-    return smoke.extinction_m2_g.at(at_um) * (1.0 - smoke.albedo.at(at_um));
-}
-
 SmokeCoefficients smoke_coefficients(const SmokeOptics& smoke, double lambda_um, double concentration_g_m3) noexcept {
     return {power_law_at(smoke.extinction_m2_g, lambda_um) * concentration_g_m3, smoke.albedo.at(lambda_um),
             smoke.asymmetry.at(lambda_um)};

@@ -20,10 +20,6 @@ inline constexpr std::string_view kSmokeKinds[] = {"savanna", "cerrado", "amazon
 /// Reads the columns of one kind. Throws an input error for an unreadable table or a kind that it lacks.
 SmokeOptics load_smoke_optics(const std::filesystem::path& path, std::string_view kind);
 
-/// Absorption per gram of particles:  mee (1 - ssa)  [m2 g-1], linear between the samples, clamped outside them.
-/// savanna: 0.503 at 0.55 um, 0.0381 at 3.96 um.
-double smoke_absorption_m2_g(const SmokeOptics& smoke, double lambda_um) noexcept;
-
 /// Smoke at one wavelength, per metre of path.
 struct SmokeCoefficients {
     double extinction_per_m = 0.0, single_scattering_albedo = 0.0, asymmetry = 0.0;

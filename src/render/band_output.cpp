@@ -45,14 +45,17 @@ void BandOutput::compute(const Pixel& pixel, const PixelView& view, float* total
     }
     const auto scale = static_cast<float>(1.0 / pixel.truth().coverage);
     const GroundSpectra& ground = pixel.ground();
-    std::array<const float*, 6> parts{pixel.flame(), ground.part(GroundSpectra::Emission)};
+    std::array<const float*, 7> parts{pixel.flame(), ground.part(GroundSpectra::Emission)};
     int count = 2;
     if (t.has_sky) parts[static_cast<std::size_t>(count++)] = ground.part(GroundSpectra::Sky);
     if (prepared_->flame_light != nullptr) parts[static_cast<std::size_t>(count++)] = ground.part(GroundSpectra::FlameLight);
-    if (t.has_thermal_sky || prepared_->flame_light != nullptr) {
+    if (t.has_thermal_sky || prepared_->flame_light != nullptr || prepared_->smoke) {
         parts[static_cast<std::size_t>(count++)] = ground.part(GroundSpectra::ThermalSky);
     }
-    if (prepared_->plume) parts[static_cast<std::size_t>(count++)] = pixel.smoke();
+    if (prepared_->smoke) {
+        parts[static_cast<std::size_t>(count++)] = pixel.smoke();
+        parts[static_cast<std::size_t>(count++)] = pixel.scattered();
+    }
     kernels_->at_sensor(t.stride, count, parts.data(), t.has_sun ? ground.part(GroundSpectra::Sun) : zero_.data(),
                         view_.solar_correlation.data(), view_.transmittance.data(), scale, path_.data(), at_sensor_.data());
     kernels_->band_sums(bands_, begin_.data(), weight_.data(), at_sensor_.data(), total);
@@ -71,7 +74,10 @@ void BandOutput::compute_terms(const Pixel& pixel, float scale, float* terms) {
     put(Term::ReflectedThermalSky, through_.data(), ground.part(GroundSpectra::ThermalSky));
     put(Term::ReflectedFlame, through_.data(), ground.part(GroundSpectra::FlameLight));
     put(Term::FlameEmission, through_.data(), pixel.flame());
-    if (prepared_->plume) put(Term::SmokeEmission, through_.data(), pixel.smoke());
+    if (prepared_->smoke) {
+        put(Term::SmokeEmission, through_.data(), pixel.smoke());
+        put(Term::SmokeScattering, through_.data(), pixel.scattered());
+    }
     put(Term::PathSolar, weight_.data(), view_.path_solar.data());
     put(Term::PathThermal, weight_.data(), view_.path_thermal.data());
     put(Term::Adjacency, weight_.data(), view_.adjacency.data());

@@ -59,6 +59,7 @@ struct Rows {
     GroundIrradiance& light;
     std::vector<std::vector<TerrainPatch>> patches;  ///< [row]; empty on a plane
     std::vector<float> through;                      ///< [row][lambda] share that flames let through; only with patches
+    const SmokeShadow* smoke = nullptr;              ///< null without a plume
 };
 
 /// From what a receiver sees to its irradiances on the transport grid. One per thread.
@@ -95,16 +96,25 @@ public:
         const double hidden_sr = shared_->rough ? look_at_terrain(receiver, light.row_of_cell, out.patches[row]) : 0.0;
         const auto open = static_cast<float>(1.0 - hidden_sr / kPi);
         const radiometry::ViewAtmosphere& air = *shared_->scene.atmosphere;
-        const auto sum = [&](std::vector<float>& into, const std::vector<float>& sky, const float* a, const float* b) {
+        const SmokeShade shade = out.smoke != nullptr ? out.smoke->at({receiver.x_m, receiver.y_m, 0.0}) : SmokeShade{};
+        const auto sum = [&](std::vector<float>& into, const std::vector<float>& whole, const float* a, const float* b,
+                             bool glows) {
             if (into.empty()) return;
             float* irradiance = at(into);
+            const float* sky = whole.data();
+            if (shade.above > 0.0F) {
+                const SmokeSpectra& smoke = tables_->smoke;
+                dimmed_sky_.resize(through_.size());
+                dim_sky(*tables_, shade, (glows ? smoke.thermal_sky : smoke.sky).data(), glows, dimmed_sky_.data());
+                sky = dimmed_sky_.data();
+            }
             for (std::size_t l = 0; l < static_cast<std::size_t>(light.lambda_count); ++l)
                 irradiance[l] = through_[l] * (open * sky[l] + a[l] + b[l]);
         };
         sum(light.sky_irradiance_W_m2_um, air.diffuse_irradiance_W_m2_um, terrain_.part(GroundSpectra::Sun),
-            terrain_.part(GroundSpectra::Sky));
+            terrain_.part(GroundSpectra::Sky), false);
         sum(light.thermal_irradiance_W_m2_um, air.thermal_irradiance_W_m2_um, terrain_.part(GroundSpectra::Emission),
-            terrain_.part(GroundSpectra::ThermalSky));
+            terrain_.part(GroundSpectra::ThermalSky), true);
     }
 
 private:
@@ -112,14 +122,15 @@ private:
     void sum_flame(float* irradiance) {
         const int moments = shared_->planck.moments();
         const float* emitted = light_.emitted().data();
-        shared_->nodes.interpolate(emitted, moments, opacity_.data());
+        const std::span<float> lambdas(of_moment_.data(), static_cast<std::size_t>(tables_->lambdas));
+        shared_->nodes.interpolate(emitted, moments, {opacity_.data(), lambdas.size()});
         if (std::all_of(opacity_.begin(), opacity_.end(), [](float o) { return o == 0.0F; })) return;
         for (int m = 0; m < moments; ++m) {
-            shared_->nodes.interpolate(emitted + m, moments, of_moment_.data());
+            shared_->nodes.interpolate(emitted + m, moments, lambdas);
             kernels_->add_product(tables_->stride, 1.0F, of_moment_.data(), shared_->planck.row(m), irradiance);
         }
         // Where only much colder flame than the hottest is seen, the series may err to below zero at short wavelengths.
-        for (int l = 0; l < tables_->lambdas; ++l) irradiance[l] = std::max(irradiance[l], 0.0F);
+        for (std::size_t l = 0; l < lambdas.size(); ++l) irradiance[l] = std::max(irradiance[l], 0.0F);
     }
 
     /// The slopes that hide the sky: fills `terrain_` with their own emission and what they reflect of sun and open sky,
@@ -158,7 +169,7 @@ private:
     ReceiverLight light_;
     GroundMix mix_;
     GroundSpectra terrain_;
-    std::vector<float> through_, opacity_, of_moment_;
+    std::vector<float> through_, opacity_, of_moment_, dimmed_sky_;
 };
 
 /// Reflections beyond the first look, for each kind of light. The first look took for granted that slopes in view receive
@@ -248,11 +259,12 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
     const std::size_t values = cells.size() * static_cast<std::size_t>(light.stride);
     light.irradiance_W_m2_um.resize(values);
     if (tables.has_sky) light.sky_irradiance_W_m2_um.resize(values);
-    if (tables.has_thermal_sky || rough) light.thermal_irradiance_W_m2_um.resize(values);
+    if (tables.has_thermal_sky || rough || has_plume(scene)) light.thermal_irradiance_W_m2_um.resize(values);
     std::optional<PointSources> points;
     if (settings.flames == GroundLightSettings::Flames::PointSources)
         points.emplace(scene, tables, settings.point_source_cut, settings.reach_m);
-    Rows rows{light, {}, {}};
+    const std::optional<SmokeShadow> smoke = has_plume(scene) ? std::optional<SmokeShadow>(scene) : std::nullopt;
+    Rows rows{light, {}, {}, smoke ? &*smoke : nullptr};
     if (rough) rows.patches.resize(cells.size());
     if (rough && settings.bounces > 1) rows.through.resize(values);
 

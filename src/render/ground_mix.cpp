@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace pyroscene::render {
-
 GroundMix::GroundMix(const SceneTables& tables)
     : tables_(&tables),
       kernels_(&spectral_kernels()),
@@ -23,8 +22,12 @@ void GroundMix::add(int material, double temperature_K, double weight, const Gro
         }
     }
     Reflection& reflection = reflection_[static_cast<std::size_t>(material)];
-    reflection.sun += weight * light.sun_cosine;
-    reflection.open += weight * light.open;
+    if (light.smoke.to_sun > 0.0F || light.smoke.above > 0.0F) {
+        shaded_.push_back({material, weight * light.sun_cosine, weight * light.open, light.smoke});
+    } else {
+        reflection.sun += weight * light.sun_cosine;
+        reflection.open += weight * light.open;
+    }
     reflection.hidden += weight * light.hidden;
     for (int j = 0; j < light.row_count; ++j) {
         const auto row = light.row[static_cast<std::size_t>(j)];
@@ -54,6 +57,24 @@ void GroundMix::resolve_lit(const LitPart& part, const GroundIrradiance& flame_l
     add(flame_light.thermal_irradiance_W_m2_um, GroundSpectra::ThermalSky);
 }
 
+void GroundMix::resolve_shaded(const ShadedPart& part, GroundSpectra& out) {
+    const SceneTables& t = *tables_;
+    const float* reflectance = t.reflectance_per_pi[part.material];
+    for (std::vector<float>* row : {&through_, &sky_}) row->resize(static_cast<std::size_t>(t.stride));
+    if (t.has_sun) {
+        kernels_->transmittance(t.stride, t.smoke.extinction_per_m.data(), part.smoke.to_sun, through_.data());
+        kernels_->add_product(t.stride, static_cast<float>(part.sun), through_.data(), t.sun[part.material],
+                              out.part(GroundSpectra::Sun));
+    }
+    if (part.open == 0.0) return;
+    const auto add = [&](const float* sky, bool glows, GroundSpectra::Part into) {
+        dim_sky(t, part.smoke, sky, glows, sky_.data());
+        kernels_->add_product(t.stride, static_cast<float>(part.open), reflectance, sky_.data(), out.part(into));
+    };
+    if (t.has_sky) add(t.smoke.sky.data(), false, GroundSpectra::Sky);
+    add(t.smoke.thermal_sky.data(), part.smoke.above > 0.0F, GroundSpectra::ThermalSky);
+}
+
 void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out) {
     const SceneTables& t = *tables_;
     const int rows = t.planck.row_count();
@@ -81,6 +102,8 @@ void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out)
         for (const LitPart& part : lit_) resolve_lit(part, *flame_light, out);
     }
     lit_.clear();
+    for (const ShadedPart& part : shaded_) resolve_shaded(part, out);
+    shaded_.clear();
 }
 
 GroundCell ground_cell(const RenderScene& scene, const SceneTables& tables, Vec3 point_m) noexcept {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/scene_tables.h"
+#include "render/smoke_shadow.h"
 
 namespace pyroscene::render {
 
@@ -29,6 +30,7 @@ struct GroundLight {
     std::array<std::int32_t, 4> row{};
     std::array<double, 4> weight{};
     double open = 1.0, hidden = 0.0;
+    SmokeShade smoke;  ///< between the place and the sun, and above it; the rows above know of it already
 };
 
 /// Ground as plain weights per material, temperature and light, gathered over rays before any wavelength is touched: what
@@ -53,6 +55,14 @@ private:
         double weight;
     };
 
+    /// Ground in the shade of smoke, each ray by itself.
+    struct ShadedPart {
+        int material;
+        double sun, open;
+        SmokeShade smoke;
+    };
+
+    void resolve_shaded(const ShadedPart& part, GroundSpectra& out);
     void resolve_lit(const LitPart& part, const GroundIrradiance& flame_light, GroundSpectra& out) const;
 
     const SceneTables* tables_;
@@ -62,6 +72,8 @@ private:
     std::vector<std::int32_t> touched_;   ///< indices into emission_, in order of arrival
     std::vector<Reflection> reflection_;  ///< [material]
     std::vector<LitPart> lit_;
+    std::vector<ShadedPart> shaded_;
+    std::vector<float> through_, sky_;
 };
 
 /// The ground at one place: what burns, what has burned, which material.

@@ -18,6 +18,7 @@ struct RaySegment {
 struct MixedPiece {
     float flame_K = 0.0F, smoke_K = 0.0F;
     double flame_m = 0.0, smoke_m = 0.0;
+    double from = 0.0, to = 0.0;  ///< ray parameters
 };
 
 /// Voxels of a field along a ray as segments, from `start_m` on. Their ends are those of the march, so that the lengths of a
@@ -47,6 +48,8 @@ void merge_segments(const std::vector<RaySegment>& flame, const std::vector<RayS
         until = std::min(until, in_smoke ? smoke[s].to : smoke_from);
         const double length_m = std::max(until - at, 0.0) * ray_m;
         MixedPiece piece;
+        piece.from = at;
+        piece.to = until;
         if (in_flame) piece.flame_K = flame[f].temperature_K, piece.flame_m = flame[f].fill * length_m;
         if (in_smoke) piece.smoke_K = smoke[s].temperature_K, piece.smoke_m = smoke[s].fill * length_m;
         if (length_m > 0.0) visit(piece);

@@ -26,14 +26,19 @@ Pixel::Pixel(const PreparedScene& prepared)
       ground_of_ray_(prepared.tables.stride),
       flame_(static_cast<std::size_t>(prepared.tables.stride), 0.0F),
       smoke_(static_cast<std::size_t>(prepared.tables.stride), 0.0F),
+      scattered_(smoke_.size(), 0.0F),
       tau_(static_cast<std::size_t>(prepared.tables.stride), 1.0F) {
     if (prepared.tables.mixture) mixture_.emplace(*prepared.tables.mixture);
+    if (prepared.smoke) smoke_ray_.emplace(prepared.tables, prepared.flame, prepared.smoke->columns, prepared.smoke->light);
 }
 
 void Pixel::begin() {
     truth_ = {};
     if (flame_used_) std::fill(flame_.begin(), flame_.end(), 0.0F);
-    if (flame_used_ && prepared_->plume) std::fill(smoke_.begin(), smoke_.end(), 0.0F);
+    if (flame_used_ && smoke_ray_) {
+        std::fill(smoke_.begin(), smoke_.end(), 0.0F);
+        std::fill(scattered_.begin(), scattered_.end(), 0.0F);
+    }
     if (ground_used_) ground_.clear();
     flame_used_ = ground_used_ = false;
 }
@@ -47,7 +52,7 @@ void Pixel::add_ray(const SceneRay& ray, double weight) {
     truth_.coverage += weight;
     truth_.hit_m = truth_.hit_m + weight * hit->point_m;
 
-    if (p.plume && march_mixed(ray.start_m, hit->point_m)) {
+    if (smoke_ray_ && smoke_ray_->march(ray.start_m, hit->point_m)) {
         add_ground_truth(ground, weight * mixed_truth(weight));
         add_mixed(weight, ground, light_at(*hit));
         return;
@@ -74,6 +79,7 @@ GroundLight Pixel::light_at(const TerrainMesh::Hit& hit) const {
                      light);
     }
     if (prepared_->tables.has_sun) light.sun_cosine = sun_cosine(scene, hit);
+    if (prepared_->smoke) light.smoke = prepared_->smoke->shadow.at(hit.point_m);
     return light;
 }
 
@@ -166,25 +172,14 @@ void Pixel::add_ground_behind(double weight, const GroundCell& ground, const Gro
     }
 }
 
-/// Flame and plume along the ray, in order; false when the ray meets no plume.
-bool Pixel::march_mixed(Vec3 start_m, Vec3 hit_m) {
-    list_segments(*prepared_->plume, start_m, hit_m, smoke_segments_);
-    if (smoke_segments_.empty()) return false;
-    list_segments(prepared_->flame, start_m, hit_m, flame_segments_);
-    mixed_.clear();
-    merge_segments(flame_segments_, smoke_segments_, length(hit_m - start_m),
-                   [&](const MixedPiece& piece) { mixed_.push_back(piece); });
-    return true;
-}
-
 /// What flame_truth() is for flame alone.
 double Pixel::mixed_truth(double weight) {
     const SceneTables& t = prepared_->tables;
     const bool gas = !t.total_transmittance.empty();
     double tau = 1.0, total = 1.0, passed_m = 0.0;  // the flame's true exitance is that without the smoke when there is gas
-    for (const MixedPiece& piece : mixed_) {
+    for (const MixedPiece& piece : smoke_ray_->pieces()) {
         const double flame = t.truth_absorption_per_m * piece.flame_m,
-                     smoke = t.truth_smoke_absorption_per_m * piece.smoke_m;
+                     smoke = t.truth_smoke_extinction_per_m * piece.smoke_m;
         if (!(flame + smoke > 0.0)) continue;
         const double emitted = -tau * std::expm1(-(flame + smoke)), by_flame = emitted * flame / (flame + smoke);
         tau -= emitted;
@@ -199,52 +194,16 @@ double Pixel::mixed_truth(double weight) {
     return tau;
 }
 
-/// Flame with gas and smoke in one piece: half of the smoke on either side of the flame, which is right to second order.
-void Pixel::add_mixed_with_gas(double weight) {
-    const SceneTables& t = prepared_->tables;
-    const auto scale = static_cast<float>(weight);
-    mixture_->begin();
-    for (const MixedPiece& piece : mixed_) {
-        const PlanckRows::Lookup warm = t.planck.at(piece.smoke_K);
-        const auto smoke = [&](double length_m) {
-            if (length_m > 0.0)
-                kernels_->emit(t.stride, t.smoke_absorption_per_m.data(), static_cast<float>(length_m),
-                               t.planck.row(warm.row), t.stride, warm.count, warm.weight.data(), scale, mixture_->tau(),
-                               smoke_.data());
-        };
-        const bool both = piece.flame_m > 0.0 && piece.smoke_m > 0.0;
-        smoke(both ? 0.5 * piece.smoke_m : piece.smoke_m);
-        if (piece.flame_m > 0.0) mixture_->add(piece.flame_K, piece.flame_m, t.planck, scale, flame_.data());
-        if (both) smoke(0.5 * piece.smoke_m);
-    }
-}
-
 void Pixel::add_mixed(double weight, const GroundCell& ground, const GroundLight& light) {
-    const SceneTables& t = prepared_->tables;
-    if (mixture_) {
-        flame_used_ = true;
-        add_mixed_with_gas(weight);
-        add_ground_behind(weight, ground, light, mixture_->tau());
-        return;
-    }
-    std::fill(tau_.begin(), tau_.end(), 1.0F);
     flame_used_ = true;
-    const auto scale = static_cast<float>(weight);
-    for (const MixedPiece& piece : mixed_) {
-        const PlanckRows::Lookup hot = t.planck.at(piece.flame_K), warm = t.planck.at(piece.smoke_K);
-        const Emitter flame{t.absorption_per_m.data(), static_cast<float>(piece.flame_m), t.planck.row(hot.row), hot.count,
-                            hot.weight.data()};
-        const Emitter smoke{t.smoke_absorption_per_m.data(), static_cast<float>(piece.smoke_m), t.planck.row(warm.row),
-                            warm.count, warm.weight.data()};
-        if (piece.flame_m > 0.0 && piece.smoke_m > 0.0) {
-            kernels_->emit_two(t.stride, flame, smoke, t.stride, scale, tau_.data(), flame_.data(), smoke_.data());
-            continue;
-        }
-        const Emitter& only = piece.flame_m > 0.0 ? flame : smoke;
-        kernels_->emit(t.stride, only.k, only.depth, only.rows, t.stride, only.row_count, only.weight, scale, tau_.data(),
-                       piece.flame_m > 0.0 ? flame_.data() : smoke_.data());
-    }
-    add_ground_behind(weight, ground, light, tau_.data());
+    if (mixture_)
+        mixture_->begin();
+    else
+        std::fill(tau_.begin(), tau_.end(), 1.0F);
+    float* tau = mixture_ ? mixture_->tau() : tau_.data();
+    smoke_ray_->emit(static_cast<float>(weight), mixture_ ? &*mixture_ : nullptr,
+                     {tau, flame_.data(), smoke_.data(), scattered_.data()});
+    add_ground_behind(weight, ground, light, tau);
 }
 
 void Pixel::add_ground_truth(const GroundCell& ground, double weight) {

@@ -6,10 +6,10 @@
 
 #include "render/flame_march.h"
 #include "render/ground_mix.h"
-#include "render/mixed_march.h"
 #include "render/mixture_ray.h"
 #include "render/scene.h"
 #include "render/scene_tables.h"
+#include "render/smoke_ray.h"
 
 namespace pyroscene::render {
 
@@ -17,13 +17,19 @@ namespace pyroscene::render {
 struct PreparedScene {
     PreparedScene(const RenderScene& s, const GroundIrradiance* light)
         : scene(s), flame_light(light), tables(s), flame(*s.flame) {
-        if (has_plume(s)) plume.emplace(*s.plume);
+        if (has_plume(s)) smoke.emplace(s, tables);
     }
+    struct Smoke {
+        Smoke(const RenderScene& s, const SceneTables& t) : columns(*s.plume), light(s, t, columns), shadow(s) {}
+        FlameColumns columns;
+        SmokeLight light;
+        SmokeShadow shadow;
+    };
     const RenderScene& scene;
     const GroundIrradiance* flame_light;  ///< may be null
     SceneTables tables;
     FlameColumns flame;
-    std::optional<FlameColumns> plume;  ///< smoke, if any
+    std::optional<Smoke> smoke;  ///< if any
 };
 
 /// What the rays of one pixel met, as sums of ray weights; opacities and transmittances of flame are those at 4.0 um.
@@ -51,6 +57,8 @@ public:
     [[nodiscard]] const float* flame() const noexcept { return flame_.data(); }
     /// Emission of the plume; zeros in scenes without one.
     [[nodiscard]] const float* smoke() const noexcept { return smoke_.data(); }
+    /// What the plume scatters.
+    [[nodiscard]] const float* scattered() const noexcept { return scattered_.data(); }
     [[nodiscard]] const GroundSpectra& ground() const noexcept { return ground_; }
 
 private:
@@ -64,10 +72,8 @@ private:
     double add_grey_flame(double weight);
     void emit_soot(double weight);
     void add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light);
-    bool march_mixed(Vec3 start_m, Vec3 hit_m);
     double mixed_truth(double weight);
     void add_mixed(double weight, const GroundCell& ground, const GroundLight& light);
-    void add_mixed_with_gas(double weight);
     void add_ground_behind(double weight, const GroundCell& ground, const GroundLight& light, const float* tau);
     void add_ground_truth(const GroundCell& ground, double weight);
 
@@ -80,9 +86,8 @@ private:
     GroundMix mix_, mix_of_ray_;
     GroundSpectra ground_, ground_of_ray_;
     std::optional<MixtureRay> mixture_;
-    std::vector<float> flame_, smoke_, tau_;
-    std::vector<RaySegment> flame_segments_, smoke_segments_;
-    std::vector<MixedPiece> mixed_;  ///< of the current ray, where it meets the plume
+    std::vector<float> flame_, smoke_, scattered_, tau_;
+    std::optional<SmokeRay> smoke_ray_;
     bool flame_used_ = false, ground_used_ = false;
 };
 

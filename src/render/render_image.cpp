@@ -31,10 +31,10 @@ void check_request(const ImageRequest& request) {
     if (!request.rays) throw input_error("image", "no source of rays");
 }
 
-/// Terms of the scene: the last one belongs to plumes.
+/// Terms of the scene: the last ones belong to plumes.
 int term_count(const RenderScene& scene) {
-    static_assert(static_cast<int>(Term::SmokeEmission) == kTermCount - 1);
-    return has_plume(scene) ? kTermCount : kTermCount - 1;
+    static_assert(static_cast<int>(Term::SmokeEmission) == kTermCount - kSmokeTermCount);
+    return has_plume(scene) ? kTermCount : kTermCount - kSmokeTermCount;
 }
 
 RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request) {

@@ -37,21 +37,25 @@ enum class Term {
     PathSolar,
     PathThermal,
     Adjacency,
-    SmokeEmission  ///< only in scenes with a plume
+    SmokeEmission,   ///< only in scenes with a plume, like the next
+    SmokeScattering  ///< sun, sky, ground and flame light scattered once by smoke
 };
-inline constexpr int kTermCount = 10;
+inline constexpr int kTermCount = 11;
+inline constexpr int kSmokeTermCount = 2;  ///< the last ones
 inline constexpr std::array<const char*, kTermCount> kTermNames{
     "ground_emission", "reflected_sun", "reflected_sky", "reflected_thermal_sky", "reflected_flame", "flame_emission",
-    "path_solar",      "path_thermal",  "adjacency",     "smoke_emission"};
+    "path_solar",      "path_thermal",  "adjacency",     "smoke_emission",        "smoke_scattering"};
 
 /// Spectral properties on the transport grid.
 struct SceneOptics {
     int lambda_count = 0;
     std::vector<double> lambda_um;
     std::vector<float> flame_absorption_per_m;  ///< [lambda] of flame that fills its voxel
-    std::vector<float> smoke_absorption_per_m;  ///< [lambda] of plume voxels of fill 1; empty without a plume
-    FlameGas gas;                               ///< what the flame is made of
-    bool grey = false;                          ///< absorption equal at all wavelengths: one exp per step
+    std::vector<float> smoke_extinction_per_m;  ///< [lambda] of plume voxels of fill 1; empty without a plume
+    /// [lambda] scattered / extinct, and Henyey-Greenstein's g; both empty: the plume only absorbs.
+    std::vector<float> smoke_albedo, smoke_asymmetry;
+    FlameGas gas;       ///< what the flame is made of
+    bool grey = false;  ///< absorption equal at all wavelengths: one exp per step
     /// Hot gas and alkali lines beside the soot, of one mixture for all flame. Without tables, or where they say nothing at
     /// these wavelengths, flame_absorption_per_m is all that absorbs.
     std::shared_ptr<const radiometry::FlameOptics> flame_tables;
@@ -141,15 +145,15 @@ struct ImageRequest {
 /// What one image holds before the detector. Planes are [line][sample], cubes [band][line][sample]; NaN where nothing is hit.
 struct RadianceImage {
     int samples = 0, lines = 0, bands = 0;
-    Buffer<float> radiance_W_m2_sr_um;            ///< [band][line][sample], noise-free
-    std::array<Buffer<float>, kTermCount> terms;  ///< each as radiance, empty when not asked for (or no plume)
-    Buffer<double> hit_x_m, hit_y_m, hit_z_m;     ///< PSF-weighted mean ground point, scene frame
-    Buffer<float> coverage;                       ///< weight of sub-rays that met the scene, 0..1
-    Buffer<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum with smoke = 1
-    Buffer<float> smoke_fraction;                                                      ///< empty in scenes without a plume
-    Buffer<float> flame_temperature_K;    ///< emission-weighted, NaN without flame
-    Buffer<float> ground_temperature_K;   ///< (mean T^4)^(1/4) of the ground seen
-    Buffer<float> radiant_exitance_W_m2;  ///< true FRP per ground area: flame + front + (scar - ambient)
+    Buffer<float> radiance_W_m2_sr_um;              ///< [band][line][sample], noise-free
+    std::array<Buffer<float>, kTermCount> terms;    ///< each as radiance, empty when not asked for (or no plume)
+    std::vector<double> hit_x_m, hit_y_m, hit_z_m;  ///< PSF-weighted mean ground point, scene frame
+    std::vector<float> coverage;                    ///< weight of sub-rays that met the scene, 0..1
+    std::vector<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum with smoke = 1
+    std::vector<float> smoke_fraction;         ///< empty in scenes without a plume
+    std::vector<float> flame_temperature_K;    ///< emission-weighted, NaN without flame
+    std::vector<float> ground_temperature_K;   ///< (mean T^4)^(1/4) of the ground seen
+    std::vector<float> radiant_exitance_W_m2;  ///< true FRP per ground area: flame + front + (scar - ambient)
 };
 
 /// The image. Bit-identical for any thread count. Throws Cancelled when the monitor asks.

@@ -109,7 +109,13 @@ void check_scene(const RenderScene& scene) {
     check_length(static_cast<std::size_t>(scene.spectral->size()), lambdas, "the spectral grid");
     check_length(optics.lambda_um.size(), lambdas, "lambda_um of the optics");
     check_length(optics.flame_absorption_per_m.size(), lambdas, "flame_absorption_per_m");
-    if (has_plume(scene)) check_length(optics.smoke_absorption_per_m.size(), lambdas, "smoke_absorption_per_m");
+    if (has_plume(scene)) {
+        check_length(optics.smoke_extinction_per_m.size(), lambdas, "smoke_extinction_per_m");
+        if (!optics.smoke_albedo.empty() || !optics.smoke_asymmetry.empty()) {
+            check_length(optics.smoke_albedo.size(), lambdas, "smoke_albedo");
+            check_length(optics.smoke_asymmetry.size(), lambdas, "smoke_asymmetry");
+        }
+    }
     check_length(optics.reflectance.size(), lambdas * materials, "reflectance");
     check_length(static_cast<std::size_t>(scene.atmosphere->lambda_count()), lambdas, "the atmosphere");
     require(optics.burnt_material >= 0 && optics.burnt_material < optics.material_count, "scene",
@@ -162,11 +168,10 @@ SceneTables::SceneTables(const RenderScene& scene) {
     });
     truth_absorption_per_m = absorption_per_m[static_cast<std::size_t>(nearest - optics.lambda_um.begin())];
 
-    if (has_plume(scene)) {
-        smoke_absorption_per_m = optics.smoke_absorption_per_m;
-        truth_smoke_absorption_per_m = smoke_absorption_per_m[static_cast<std::size_t>(nearest - optics.lambda_um.begin())];
-        smoke_absorption_per_m.resize(static_cast<std::size_t>(stride), smoke_absorption_per_m.back());
-    }
+    if (has_plume(scene))
+        truth_smoke_extinction_per_m =
+            optics.smoke_extinction_per_m[static_cast<std::size_t>(nearest - optics.lambda_um.begin())];
+    to_sun = scene.to_sun;
     has_sun = scene.to_sun.z > 0.0 && any_positive(air.direct_normal_irradiance_W_m2_um);
     has_sky = has_sun || any_positive(air.diffuse_irradiance_W_m2_um);  // slopes reflect the sun as a part of the sky
     has_thermal_sky = any_positive(air.thermal_irradiance_W_m2_um);
@@ -216,6 +221,32 @@ void SceneTables::set_slopes(const RenderScene& scene) {
     };
     slopes_solar = reflected(solar);
     slopes_thermal = reflected(thermal);
+    for (std::size_t l = 0; l < solar.size(); ++l) solar[l] += thermal[l];
+    if (has_plume(scene)) set_smoke(scene, solar);
+}
+
+void SceneTables::set_smoke(const RenderScene& scene, std::span<const double> ambient_exitance) {
+    const SceneOptics& optics = *scene.optics;
+    const radiometry::ViewAtmosphere& air = *scene.atmosphere;
+    const auto size = static_cast<std::size_t>(stride);
+    smoke.scatters = any_positive(optics.smoke_albedo);
+    smoke.extinction_per_m = optics.smoke_extinction_per_m;
+    smoke.extinction_per_m.resize(size, smoke.extinction_per_m.back());
+    smoke.sky = air.diffuse_irradiance_W_m2_um;
+    smoke.thermal_sky = air.thermal_irradiance_W_m2_um;
+    for (std::vector<float>* row : {&smoke.sky, &smoke.thermal_sky}) row->resize(size, 0.0F);
+    if (!smoke.scatters) return;
+    smoke.albedo = optics.smoke_albedo;
+    smoke.asymmetry = optics.smoke_asymmetry;
+    smoke.sun.assign(size, 0.0F);
+    smoke.half_sky = smoke.half_ground = smoke.sun;
+    for (std::vector<float>* row : {&smoke.albedo, &smoke.asymmetry}) row->resize(size, 0.0F);
+    for (std::size_t l = 0; l < ambient_exitance.size(); ++l) {
+        if (has_sun) smoke.sun[l] = air.direct_normal_irradiance_W_m2_um[l];
+        smoke.half_sky[l] =
+            (air.diffuse_irradiance_W_m2_um[l] + air.thermal_irradiance_W_m2_um[l]) / (2.0F * static_cast<float>(kPi));
+        smoke.half_ground[l] = static_cast<float>(ambient_exitance[l] / (2.0 * kPi));
+    }
 }
 
 }  // namespace pyroscene::render

@@ -11,6 +11,18 @@
 
 namespace pyroscene::render {
 
+/// A diffuse sky or ground is dimmed as by a beam on this slant: the secant whose exp(-1.66 t) is nearest to the hemispherical
+/// flux transmittance 2 E3(t) (Elsasser).
+inline constexpr float kMeanSlant = 1.66F;
+
+/// Smoke of fill 1 and the light that falls on it from outside the plume; rows of `stride`. Empty without a plume.
+struct SmokeSpectra {
+    bool scatters = false;
+    std::vector<float> extinction_per_m, albedo, asymmetry;
+    std::vector<float> sun, sky, thermal_sky;  ///< irradiances: direct normal, horizontal
+    std::vector<float> half_sky, half_ground;  ///< half the radiance of the sky, and of the scene's mean ambient ground
+};
+
 /// Everything of a scene that depends on wavelength only, laid out for the kernels: rows of `stride` floats (the wavelengths,
 /// padded with zeros). Built once per image.
 struct SceneTables {
@@ -26,10 +38,10 @@ struct SceneTables {
     };
 
     int lambdas = 0, stride = 0, materials = 0, burnt_material = 0;
-    PlanckRows planck;                          ///< all temperatures of flame and ground
-    std::vector<float> absorption_per_m;        ///< of flame
-    std::vector<float> smoke_absorption_per_m;  ///< of plume; empty without one
-    double truth_smoke_absorption_per_m = 0.0;
+    PlanckRows planck;                    ///< all temperatures of flame and ground
+    std::vector<float> absorption_per_m;  ///< of flame
+    SmokeSpectra smoke;
+    double truth_smoke_extinction_per_m = 0.0;
     /// Soot, gas and atoms over temperature; null when only the above absorbs.
     std::unique_ptr<const radiometry::FlameTable> mixture;
     /// Transmittance of flame over all wavelengths at 0, 0.25, ... in ln(1 + filled length / 1 cm), for the true exitance of
@@ -44,6 +56,7 @@ struct SceneTables {
     Rows sun, sky, thermal_sky;         ///< radiance reflected from the whole, open sky; sun: per cosine of incidence
     Rows slopes_solar, slopes_thermal;  ///< radiance reflected from a hemisphere full of ambient terrain of the scene's mean
         ///< material: sun and sky that it reflects, what it emits and reflects of the thermal sky
+    Vec3 to_sun;
     bool has_sun = false, has_sky = false, has_thermal_sky = false;
     std::vector<double>
         broadband_emissivity;  ///< per material: plain mean over the wavelengths, for the true radiant exitance
@@ -51,6 +64,7 @@ struct SceneTables {
 
 private:
     void set_slopes(const RenderScene& scene);
+    void set_smoke(const RenderScene& scene, std::span<const double> ambient_exitance);
 };
 
 /// Checks that the parts of a scene fit together; throws an input error that names the part.

@@ -7,6 +7,7 @@ namespace pyroscene::render {
 /// Both versions give the same numbers within rounding; one machine always uses one of them.
 struct PlaneTrace;
 struct MixturePiece;
+struct SmokePiece;
 
 /// One of the constituents of a piece of ray: absorption spectrum, fill x length, rows and weights of its Planck spectrum.
 struct Emitter {
@@ -27,10 +28,10 @@ struct SpectralKernels {
     /// tau is kept above 1e-20: denormal numbers cost ten times as much.
     void (*emit)(int n, const float* k, float depth, const float* rows, int row_stride, int row_count, const float* weight,
                  float scale, float* tau, float* flame);
-    /// One homogeneous piece that holds flame and smoke at once, a = k_f depth_f, b = k_s depth_s:
-    ///   flame += scale tau (1 - exp(-a-b)) a / (a + b) B_f,   smoke likewise with b and B_s,   tau *= exp(-a-b)
-    void (*emit_two)(int n, const Emitter& flame_piece, const Emitter& smoke_piece, int row_stride, float scale, float* tau,
-                     float* flame, float* smoke);
+    /// One homogeneous piece with smoke and perhaps flame: see SmokePiece.
+    void (*emit_smoke)(const SmokePiece& piece);
+    /// out = irradiance times the Henyey-Greenstein phase function [1/sr] at one cosine of the scattering angle.
+    void (*phase_product)(int n, const float* asymmetry, float cosine, const float* irradiance, float* out);
     /// One homogeneous piece of flame with gas: see MixturePiece.
     void (*emit_mixture)(const MixturePiece& piece);
     /// out += sum_j weight[j] row_j

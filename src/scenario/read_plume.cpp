@@ -45,6 +45,31 @@ PlumeSource read_plume_source(const config::Node& node, const fs::path& folder) 
     return source;
 }
 
+namespace {
+
+SmokeLayerSettings read_layer(const config::Node& node) {
+    SmokeLayerSettings layer;
+    if (!node.is_map()) {
+        node.report("expected a map with bottom_m, top_m and concentration_g_m3 or optical_depth_550nm");
+        return layer;
+    }
+    (void)node.required_child("bottom_m");
+    (void)node.required_child("top_m");
+    layer.bottom_m = node.number("bottom_m", 0.0, Range::between(-500.0, 20000.0));
+    layer.top_m = node.number("top_m", 1.0, Range::between(-500.0, 20000.0));
+    if (!(layer.top_m > layer.bottom_m)) node.child("top_m").report("expected a height above bottom_m");
+    layer.concentration_g_m3 = node.optional_number("concentration_g_m3", Range::between(0.0, 10.0));
+    const auto depth = node.optional_number("optical_depth_550nm", Range::between(0.0, 100.0));
+    layer.optical_depth_550nm = depth.value_or(0.0);
+    if (depth.has_value() == layer.concentration_g_m3.has_value())
+        node.report("give 'concentration_g_m3' or 'optical_depth_550nm'");
+    layer.temperature_K = node.optional_number("temperature_K", kTemperature_K);
+    node.finish();
+    return layer;
+}
+
+}  // namespace
+
 PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire) {
     PlumeSettings plume;
     auto& p = plume.parameters;
@@ -66,6 +91,11 @@ PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const f
     plume.grey_absorption_per_m = node.optional_number("absorption_per_m", Range::between(0.0, 1e3));
     p.uniform = plume.grey_absorption_per_m.has_value();
     plume.smoke = node.choice("smoke", plume.smoke, {"savanna", "cerrado", "amazon_forest", "boreal_forest"});
+    const auto layers = node.child("layers");
+    if (layers.present())
+        for (const auto& item : layers.items()) plume.layers.push_back(read_layer(item));
+    if (layers.present() && plume.grey_absorption_per_m)
+        layers.report("layers are smoke; they exclude 'plume.absorption_per_m'");
     const auto edges_m = node.numbers("voxel_m", 3);
     const auto items = node.child("voxel_m").items();
     for (std::size_t axis = 0; axis < edges_m.size(); ++axis)

@@ -98,12 +98,21 @@ struct RenderSettings {
     bool sun = true;  ///< false = solar terms off whatever the hour
 };
 
+/// A uniform layer of smoke: how much by concentration or by optical depth.
+struct SmokeLayerSettings {
+    double bottom_m = 0.0, top_m = 0.0;
+    std::optional<double> concentration_g_m3;
+    double optical_depth_550nm = 0.0;
+    std::optional<double> temperature_K;  ///< the air's
+};
+
 /// Smoke and hot gas above the fire.
 struct PlumeSettings {
     bool rise = false;  ///< plume rise model; a 3-D input is used when there is one
     fire::PlumeParameters parameters;
     std::string smoke = "savanna";                ///< kind of smoke (radiometry/smoke.h)
     std::optional<double> grey_absorption_per_m;  ///< of every plume voxel, instead of smoke
+    std::vector<SmokeLayerSettings> layers;
 };
 
 /// Pose of a frame: over a map place or at geographic coordinates.
@@ -134,7 +143,7 @@ struct Acquisition {
 
 struct Products {
     bool radiance = true, brightness_temperature = true, ortho = true, truth = true, fractions = true, frp = true,
-         quicklook = true, report = true;
+         quicklook = true;
 };
 
 /// All that the user asked for, fully checked by load(): files exist, sensors are known, numbers are in range.

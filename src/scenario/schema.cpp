@@ -215,6 +215,15 @@ constexpr const char* kSchema = R"json({
         "merge_m": {"type": "number", "minimum": 0, "maximum": 1e5, "default": 200},
         "temperature_K": {"$ref": "#/$defs/temperature_K", "description": "of every voxel, instead of the computed one"},
         "absorption_per_m": {"type": "number", "minimum": 0, "maximum": 1e3, "description": "grey, of every voxel, instead of smoke"},
+        "layers": {"description": "horizontally uniform smoke", "type": "array", "items": {"type": "object", "additionalProperties": false,
+          "required": ["bottom_m", "top_m"],
+          "properties": {
+            "bottom_m": {"type": "number", "minimum": -500, "maximum": 20000},
+            "top_m": {"type": "number", "minimum": -500, "maximum": 20000},
+            "concentration_g_m3": {"type": "number", "minimum": 0, "maximum": 10},
+            "optical_depth_550nm": {"type": "number", "minimum": 0, "maximum": 100},
+            "temperature_K": {"$ref": "#/$defs/temperature_K"}
+          }}},
         "smoke": {"enum": ["savanna", "cerrado", "amazon_forest", "boreal_forest"], "default": "savanna"},
         "emission_factor_g_kg": {"type": "number", "minimum": 0, "maximum": 1000, "default": 10},
         "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 1e8, "default": 17.433e6}
@@ -331,8 +340,8 @@ constexpr const char* kSchema = R"json({
       "type": "array",
       "minItems": 1,
       "uniqueItems": true,
-      "items": {"enum": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report"]},
-      "default": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report"]
+      "items": {"enum": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook"]},
+      "default": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook"]
     },
     "seed": {"type": "integer", "minimum": 0, "default": 1}
   },

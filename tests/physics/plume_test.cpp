@@ -25,7 +25,7 @@ TestScene scene_with_plume(double ground_K, double flame_K, double smoke_K, doub
     scene.plume =
         fire::make_flame_field({.corner_m = {13.0, 17.0, 7.0}, .nx = 9, .ny = 8, .dx_m = 14.0, .dy_m = 15.0, .dz_m = 11.0},
                                box_of_voxels(9, 8, 6, smoke_K));
-    scene.optics.smoke_absorption_per_m.assign(kLambda_um.size(), static_cast<float>(smoke_per_m));
+    scene.optics.smoke_extinction_per_m.assign(kLambda_um.size(), static_cast<float>(smoke_per_m));
     return scene;
 }
 

@@ -59,4 +59,19 @@ TEST(FlameRelations, FlameLengthGoesWithItsMethod) {
     EXPECT_EQ(folder.problems(shortest(method)).size(), 1U);
 }
 
+TEST(Plume, LayersOfSmokeAreRead) {
+    const ScenarioFolder folder;
+    const Scenario s = folder.load(shortest(R"(plume:
+  layers:
+    - {bottom_m: 500, top_m: 900, optical_depth_550nm: 0.3}
+    - {bottom_m: 1200, top_m: 1250, concentration_g_m3: 2e-4, temperature_K: 280}
+)"));
+    ASSERT_EQ(s.plume.layers.size(), 2U);
+    EXPECT_EQ(s.plume.layers[0].top_m, 900.0);
+    EXPECT_EQ(s.plume.layers[0].optical_depth_550nm, 0.3);
+    EXPECT_FALSE(s.plume.layers[0].concentration_g_m3.has_value());
+    EXPECT_EQ(s.plume.layers[1].concentration_g_m3, 2e-4);
+    EXPECT_EQ(s.plume.layers[1].temperature_K, 280.0);
+}
+
 }  // namespace pyroscene::scenario

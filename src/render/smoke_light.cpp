@@ -1,0 +1,208 @@
+#include "render/smoke_light.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "render/smoke_shadow.h"
+
+namespace pyroscene::render {
+namespace {
+
+constexpr int kEdge = fire::FlameField::kBrickEdge;
+
+/// Calls visit(brick, brick_i, brick_j, brick_k) for all bricks.
+template <class Visit>
+void visit_bricks(const fire::FlameField& field, Visit&& visit) {
+    for (int bj = 0; bj < field.brick_rows; ++bj) {
+        for (int bi = 0; bi < field.brick_cols; ++bi) {
+            const auto& column = field.columns[static_cast<std::size_t>(bj) * static_cast<std::size_t>(field.brick_cols) +
+                                               static_cast<std::size_t>(bi)];
+            for (int b = 0; b < column.brick_count; ++b)
+                visit(field.bricks[static_cast<std::size_t>(column.first_brick + b)], bi, bj, column.z_begin + b);
+        }
+    }
+}
+
+/// A brick of flame as one body: middle, volume of emitting gas, outer faces, temperature (mean weighted with fill T^4).
+struct FlameBody {
+    Vec3 middle_m;
+    double filled_m3 = 0.0, area_m2 = 0.0, T_K = 0.0;
+};
+
+FlameBody flame_body(const fire::FlameField& flame, const fire::FlameField::Brick& brick, int bi, int bj, int bk) {
+    const fire::VoxelGrid& g = flame.grid;
+    const double volume_m3 = g.dx_m * g.dy_m * g.dz_m;
+    const std::array<double, 3> face_m2{g.dy_m * g.dz_m, g.dx_m * g.dz_m, g.dx_m * g.dy_m};
+    FlameBody body;
+    double weights = 0.0;
+    for (std::size_t v = 0; v < brick.fill.size(); ++v) {
+        if (!(brick.fill[v] > 0.0F)) continue;
+        const int n = static_cast<int>(v), i = bi * kEdge + n % kEdge, j = bj * kEdge + n / kEdge % kEdge,
+                  k = bk * kEdge + n / (kEdge * kEdge);
+        const double T_K = brick.temperature_K[v], weight = brick.fill[v] * T_K * T_K * T_K * T_K;
+        weights += weight;
+        body.T_K += weight * T_K;
+        body.middle_m = body.middle_m + weight * Vec3{g.corner_m.x + (i + 0.5) * g.dx_m, g.corner_m.y + (j + 0.5) * g.dy_m,
+                                                      g.corner_m.z + (k + 0.5) * g.dz_m};
+        body.filled_m3 += brick.fill[v] * volume_m3;
+        for (const int step : {-1, 1}) {
+            if (!(voxel_at(flame, i + step, j, k).fill > 0.0F)) body.area_m2 += face_m2[0];
+            if (!(voxel_at(flame, i, j + step, k).fill > 0.0F)) body.area_m2 += face_m2[1];
+            if (!(voxel_at(flame, i, j, k + step).fill > 0.0F)) body.area_m2 += face_m2[2];
+        }
+    }
+    if (!(weights > 0.0)) return {};
+    body.T_K /= weights;
+    body.middle_m = body.middle_m / weights;
+    // Bodies in the middle of flame have no outer face; the least area is that of the sphere that holds the gas.
+    body.area_m2 = std::max(body.area_m2, std::cbrt(36.0 * kPi * body.filled_m3 * body.filled_m3));
+    return body;
+}
+
+}  // namespace
+
+SmokeLight::SmokeLight(const RenderScene& scene, const SceneTables& tables, const FlameColumns& plume)
+    : scene_(&scene),
+      plume_(&plume),
+      flame_share_m2_(static_cast<std::size_t>(tables.stride), 0.0F),
+      flame_radiance_(flame_share_m2_.size(), 0.0F) {
+    if (!tables.smoke.scatters) return;
+    find_box();
+    find_sources(tables);
+    fill_nodes();
+}
+
+/// The nodes' lattice: voxel columns of all bricks with smoke.
+void SmokeLight::find_box() {
+    const fire::FlameField& field = *scene_->plume;
+    int west = field.brick_cols, east = 0, south = field.brick_rows, north = 0;
+    visit_bricks(field, [&](const auto&, int bi, int bj, int) {
+        west = std::min(west, bi);
+        east = std::max(east, bi + 1);
+        south = std::min(south, bj);
+        north = std::max(north, bj + 1);
+    });
+    const fire::VoxelGrid& g = field.grid;
+    const auto [lowest, highest] = plume_->height_range();
+    corner_m_ = g.corner_m + Vec3{west * kEdge * g.dx_m, south * kEdge * g.dy_m, lowest * g.dz_m};
+    nx_ = std::min(east * kEdge, g.nx) - west * kEdge;
+    ny_ = std::min(north * kEdge, g.ny) - south * kEdge;
+    nz_ = highest - lowest;
+}
+
+void SmokeLight::find_sources(const SceneTables& tables) {
+    const SpectralKernels& kernels = spectral_kernels();
+    const std::size_t n = flame_share_m2_.size();
+    std::vector<float> tau(n), emitted(n), emission(n, 0.0F);
+    double total = 0.0;
+    visit_bricks(*scene_->flame, [&](const fire::FlameField::Brick& brick, int bi, int bj, int bk) {
+        const FlameBody body = flame_body(*scene_->flame, brick, bi, bj, bk);
+        if (!(body.filled_m3 > 0.0)) return;
+        const auto chord_m = static_cast<float>(4.0 * body.filled_m3 / body.area_m2);
+        const PlanckRows::Lookup at = tables.planck.at(body.T_K);
+        std::fill(tau.begin(), tau.end(), 1.0F);
+        std::fill(emitted.begin(), emitted.end(), 0.0F);
+        kernels.emit(tables.stride, tables.absorption_per_m.data(), chord_m, tables.planck.row(at.row), tables.stride,
+                     at.count, at.weight.data(), static_cast<float>(0.25 * body.area_m2), tau.data(), emitted.data());
+        double scattered = 0.0;  // what the smoke makes of it ranks the sources
+        for (std::size_t l = 0; l < n; ++l) {
+            flame_share_m2_[l] += static_cast<float>(body.area_m2 / (16.0 * kPi)) * (1.0F - tau[l]);
+            emission[l] += emitted[l] / static_cast<float>(4.0 * kPi);
+            scattered += static_cast<double>(tables.smoke.extinction_per_m[l] * tables.smoke.albedo[l] * emitted[l]);
+        }
+        sources_.push_back({body.middle_m, scattered, body.area_m2 / (16.0 * kPi)});
+        total += scattered;
+    });
+    for (Source& source : sources_) source.weight = total > 0.0 ? source.weight / total : 0.0;
+    for (std::size_t l = 0; l < n; ++l)
+        flame_radiance_[l] = flame_share_m2_[l] > 0.0F ? emission[l] / flame_share_m2_[l] : 0.0F;
+}
+
+void SmokeLight::fill_nodes() {
+    const fire::VoxelGrid& g = scene_->plume->grid;
+    nodes_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_ + 1), Node{});
+    const int i0 = static_cast<int>(std::lround((corner_m_.x - g.corner_m.x) / g.dx_m)),
+              j0 = static_cast<int>(std::lround((corner_m_.y - g.corner_m.y) / g.dy_m)),
+              k0 = static_cast<int>(std::lround((corner_m_.z - g.corner_m.z) / g.dz_m));
+    // Smoke above each node by sums down the columns; then below; a node without smoke around it is never asked for.
+    std::vector<std::uint8_t> filled(nodes_.size(), 0);
+    tbb::parallel_for(0, ny_, [&](int j) {
+        for (int i = 0; i < nx_; ++i) {
+            for (int k = nz_ - 1; k >= 0; --k) {
+                const float fill = voxel_at(*scene_->plume, i0 + i, j0 + j, k0 + k).fill;
+                filled[node_index(i, j, k)] = fill > 0.0F ? 1 : 0;
+                nodes_[node_index(i, j, k)][Above] =
+                    nodes_[node_index(i, j, k + 1)][Above] + fill * static_cast<float>(g.dz_m);
+            }
+            const float all = nodes_[node_index(i, j, 0)][Above];
+            for (int k = 0; k <= nz_; ++k) nodes_[node_index(i, j, k)][Below] = all - nodes_[node_index(i, j, k)][Above];
+        }
+    });
+    const auto near_smoke = [&](int i, int j, int k) {
+        for (int dk = -1; dk <= 0; ++dk)
+            for (int dj = -1; dj <= 1; ++dj)
+                for (int di = -1; di <= 1; ++di) {
+                    const int ii = i + di, jj = j + dj, kk = k + dk;
+                    if (ii >= 0 && ii < nx_ && jj >= 0 && jj < ny_ && kk >= 0 && kk < nz_ &&
+                        filled[node_index(ii, jj, kk)] != 0)
+                        return true;
+                }
+        return false;
+    };
+    tbb::parallel_for(0, (nz_ + 1) * ny_, [&](int row) {
+        const int k = row / ny_, j = row % ny_;
+        for (int i = 0; i < nx_; ++i) {
+            if (near_smoke(i, j, k))
+                fill_node(corner_m_ + Vec3{(i + 0.5) * g.dx_m, (j + 0.5) * g.dy_m, k * g.dz_m}, nodes_[node_index(i, j, k)]);
+        }
+    });
+}
+
+void SmokeLight::fill_node(Vec3 at_m, Node& node) const {
+    node[ToSun] = static_cast<float>(smoke_to_sun(*plume_, at_m, scene_->to_sun));
+    double sum = 0.0;
+    Vec3 bundle, middle;
+    for (const Source& source : sources_) {
+        const Vec3 way = at_m - source.at_m;
+        const double r2_m2 = dot(way, way) + source.softening_m2, weight = source.weight / r2_m2;
+        sum += weight;
+        bundle = bundle + (weight / std::sqrt(r2_m2)) * way;
+        middle = middle + weight * source.at_m;
+    }
+    if (!(sum > 0.0)) return;
+    const Vec3 to_flame = middle / sum - at_m;
+    const double distance_m = length(to_flame);
+    node[FlamePerM2] = static_cast<float>(sum);
+    node[ToFlame] = distance_m > 0.0 ? static_cast<float>(smoke_between(*plume_, at_m, at_m + to_flame)) : 0.0F;
+    node[FlameX] = static_cast<float>(bundle.x / sum);
+    node[FlameY] = static_cast<float>(bundle.y / sum);
+    node[FlameZ] = static_cast<float>(bundle.z / sum);
+}
+
+SmokeLight::Node SmokeLight::at(Vec3 point_m) const noexcept {
+    const fire::VoxelGrid& g = scene_->plume->grid;
+    const auto place = [](double at, int count, int& first, float& part) {
+        const double held = std::clamp(at, 0.0, count - 1.0);
+        first = std::min(static_cast<int>(held), std::max(count - 2, 0));
+        part = static_cast<float>(held - first);
+    };
+    int i = 0, j = 0, k = 0;
+    float x = 0.0F, y = 0.0F, z = 0.0F;
+    place((point_m.x - corner_m_.x) / g.dx_m - 0.5, nx_, i, x);
+    place((point_m.y - corner_m_.y) / g.dy_m - 0.5, ny_, j, y);
+    place((point_m.z - corner_m_.z) / g.dz_m, nz_ + 1, k, z);
+    Node out{};
+    for (int corner = 0; corner < 8; ++corner) {
+        const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
+        const float weight = (di != 0 ? x : 1.0F - x) * (dj != 0 ? y : 1.0F - y) * (dk != 0 ? z : 1.0F - z);
+        if (weight == 0.0F) continue;
+        const Node& node = nodes_[node_index(i + di, j + dj, k + dk)];
+        for (std::size_t q = 0; q < out.size(); ++q) out[q] += weight * node[q];
+    }
+    return out;
+}
+
+}  // namespace pyroscene::render

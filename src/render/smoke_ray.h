@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "render/mixed_march.h"
+#include "render/mixture_ray.h"
+#include "render/scene_tables.h"
+#include "render/smoke_light.h"
+#include "render/smoke_piece.h"
+
+namespace pyroscene::render {
+
+/// A ray through smoke, and flame in it or behind it. One per thread.
+class SmokeRay {
+public:
+    SmokeRay(const SceneTables& tables, const FlameColumns& flame, const FlameColumns& plume, const SmokeLight& light);
+
+    /// Lists what lies on the way, from `start_m` on; false when it meets no smoke.
+    bool march(Vec3 start_m, Vec3 end_m);
+    [[nodiscard]] const std::vector<MixedPiece>& pieces() const noexcept { return pieces_; }
+
+    /// Adds scale times what the pieces send to the sensor and multiplies what they let through into `tau` [stride].
+    /// \param mixture  flame with gas, begun; null: soot alone. It owns `tau` then.
+    struct Spectra {
+        float *tau, *flame, *smoke, *scattered;
+    };
+    void emit(float scale, MixtureRay* mixture, const Spectra& out);
+
+private:
+    [[nodiscard]] SmokePiece piece(const MixedPiece& from, float scale, const Spectra& out) const;
+    void light(SmokePiece& piece, double from, double to) const;
+
+    const SceneTables* tables_;
+    const SpectralKernels* kernels_;
+    const FlameColumns *flame_, *plume_;
+    const SmokeLight* light_;
+    Vec3 start_m_, way_m_, direction_;
+    std::vector<RaySegment> flame_segments_, smoke_segments_;
+    std::vector<MixedPiece> pieces_;
+    std::vector<float> sun_;  ///< irradiance times phase function of this ray
+};
+
+}  // namespace pyroscene::render

@@ -1,0 +1,91 @@
+#include "render/smoke_shadow.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "render/flame_march.h"
+
+namespace pyroscene::render {
+namespace {
+
+constexpr double kFarthestSun_m = 1e5;
+
+double top_m(const FlameColumns& plume) { return plume.grid().corner_m.z + plume.height_range()[1] * plume.grid().dz_m; }
+
+}  // namespace
+
+double smoke_between(const FlameColumns& plume, Vec3 from_m, Vec3 to_m) {
+    double sum = 0.0;
+    march_flame(plume, from_m, to_m, [&](float, float fill, double piece_m) {
+        sum += fill * piece_m;
+        return true;
+    });
+    return sum;
+}
+
+double smoke_to_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun) {
+    const double climb_m = top_m(plume) - from_m.z;
+    if (!(to_sun.z > 0.0 && climb_m > 0.0)) return 0.0;
+    return smoke_between(plume, from_m, from_m + std::min(climb_m / to_sun.z, kFarthestSun_m) * to_sun);
+}
+
+SmokeShadow::SmokeShadow(const RenderScene& scene)
+    : grid_(scene.terrain->grid()), origin_m_(scene.scene_origin_m), cells_(grid_.size()) {
+    const FlameColumns plume(*scene.plume);
+    const double highest_m = top_m(plume);
+    tbb::parallel_for(0, grid_.rows, [&](int row) {
+        for (int col = 0; col < grid_.cols; ++col) {
+            const double x_m = grid_.x_centre_m(col) - origin_m_.x, y_m = grid_.y_centre_m(row) - origin_m_.y;
+            const Vec3 from{x_m, y_m, scene.terrain->height_at(x_m, y_m)};
+            if (!std::isfinite(from.z) || from.z >= highest_m) continue;
+            SmokeShade& shade = cells_[grid_.index(row, col)];
+            double above = 0.0, heat = 0.0;
+            march_flame(plume, from, {x_m, y_m, highest_m}, [&](float T_K, float fill, double piece_m) {
+                above += fill * piece_m;
+                heat += fill * piece_m * T_K;
+                return true;
+            });
+            shade.above = static_cast<float>(above);
+            shade.temperature_K = above > 0.0 ? static_cast<float>(heat / above) : 0.0F;
+            shade.to_sun = static_cast<float>(smoke_to_sun(plume, from, scene.to_sun));
+        }
+    });
+}
+
+SmokeShade SmokeShadow::at(Vec3 ground_m) const noexcept {
+    const double col = std::clamp(grid_.col_at(ground_m.x + origin_m_.x) - 0.5, 0.0, grid_.cols - 1.0);
+    const double row = std::clamp(grid_.row_at(ground_m.y + origin_m_.y) - 0.5, 0.0, grid_.rows - 1.0);
+    const int c = std::min(static_cast<int>(col), std::max(grid_.cols - 2, 0)),
+              r = std::min(static_cast<int>(row), std::max(grid_.rows - 2, 0));
+    SmokeShade out;
+    for (int j = 0; j < 4; ++j) {
+        const int dr = j / 2, dc = j % 2;
+        const double weight = (dr != 0 ? row - r : 1.0 - (row - r)) * (dc != 0 ? col - c : 1.0 - (col - c));
+        if (weight == 0.0) continue;
+        const SmokeShade& cell = cells_[grid_.index(r + dr, c + dc)];
+        const auto w = static_cast<float>(weight);
+        out.to_sun += w * cell.to_sun;
+        out.above += w * cell.above;
+        out.temperature_K += w * cell.above * cell.temperature_K;
+    }
+    if (out.above > 0.0F) out.temperature_K /= out.above;
+    return out;
+}
+
+void dim_sky(const SceneTables& tables, const SmokeShade& shade, const float* sky, bool glows, float* out) {
+    const SpectralKernels& kernels = spectral_kernels();
+    kernels.transmittance(tables.stride, tables.smoke.extinction_per_m.data(), kMeanSlant * shade.above, out);
+    if (!glows) return kernels.product(tables.stride, 1.0F, sky, out, out);
+    const PlanckRows::Lookup warm = tables.planck.at(shade.temperature_K);
+    for (int l = 0; l < tables.stride; ++l) {
+        float B = 0.0F;
+        for (int j = 0; j < warm.count; ++j)
+            B += warm.weight[static_cast<std::size_t>(j)] * tables.planck.row(warm.row + j)[l];
+        out[l] = out[l] * sky[l] + (1.0F - out[l]) * static_cast<float>(kPi) * B;
+    }
+}
+
+}  // namespace pyroscene::render
