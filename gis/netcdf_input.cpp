@@ -1,5 +1,6 @@
 #include "gis/netcdf_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,9 +22,18 @@ std::string names_of(const GDALGroup& root) {
 void read_values(const GDALMDArray& array, NamedArray& out, const std::string& subject, const GdalErrors& errors) {
     const std::vector<GUInt64> start(out.shape.size(), 0);
     const std::vector<std::size_t> count(out.shape.begin(), out.shape.end());
-    const auto type = GDALExtendedDataType::Create(GDT_Float64);
-    if (!array.Read(start.data(), count.data(), nullptr, nullptr, type, out.values.data()))
-        throw input_error(subject, "cannot be read: " + errors.message());
+    // GDAL converts value by value, which costs more than reading: floats are read as they are.
+    const auto read = [&](auto& values, GDALDataType type) {
+        if (!array.Read(start.data(), count.data(), nullptr, nullptr, GDALExtendedDataType::Create(type), values.data()))
+            throw input_error(subject, "cannot be read: " + errors.message());
+    };
+    if (array.GetDataType().GetNumericDataType() == GDT_Float32) {
+        std::vector<float> values(out.values.size());
+        read(values, GDT_Float32);
+        std::copy(values.begin(), values.end(), out.values.begin());
+    } else {
+        read(out.values, GDT_Float64);
+    }
     bool has_nodata = false, has_scale = false, has_offset = false;
     const double nodata = array.GetNoDataValueAsDouble(&has_nodata);
     const double scale = array.GetScale(&has_scale), offset = array.GetOffset(&has_offset);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "fire/flame_height.h"
 #include "fire/flame_tilt.h"
+#include "radiometry/alkali_thesis.h"
 
 namespace pyroscene::cli {
 namespace {
@@ -193,6 +194,22 @@ Calculation flame_tilt_calculation() {
              {"physics", "default"}},
             {"tilt_deg"},
             flame_tilt};
+}
+
+Calculation thesis_potassium_calculation() {
+    return {"thesis-potassium",
+            "potassium lines as appendix A of the thesis computes them, kept for its figures; flame-emissivity has the "
+            "model to use",
+            {{"temperature_K", {}}, {"emissivity", "1"}},
+            {"ionised_fraction", "power_W", "ratio_766", "ratio_770"},
+            [](const Arguments& a) {
+                const radiometry::ThesisPotassium gas;
+                const double T_K = above_zero(a, "temperature_K"), emissivity = above_zero(a, "emissivity");
+                return std::vector{radiometry::thesis_ionised_fraction(gas, T_K),
+                                   radiometry::thesis_potassium_power_W(gas, T_K),
+                                   radiometry::thesis_potassium_ratio(gas, T_K, emissivity, 766.40, 766.60),
+                                   radiometry::thesis_potassium_ratio(gas, T_K, emissivity, 769.80, 770.00)};
+            }};
 }
 
 }  // namespace pyroscene::cli

@@ -10,4 +10,7 @@ Calculation flame_height_calculation();
 /// `calc flame-tilt`: every row of the tilt table.
 Calculation flame_tilt_calculation();
 
+/// `calc thesis-potassium`: appendix A as printed.
+Calculation thesis_potassium_calculation();
+
 }  // namespace pyroscene::cli

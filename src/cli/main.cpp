@@ -17,6 +17,7 @@
 #include "cli/export_command.h"
 #include "cli/fit_scar_command.h"
 #include "cli/frp_command.h"
+#include "cli/picture_commands.h"
 #include "cli/progress.h"
 #include "cli/sensors_command.h"
 #include "cli/unmix_command.h"
@@ -302,6 +303,7 @@ int main(int argc, char** argv) {
 
     std::string command_line;
     cli::add_atmosphere_commands(app, a.quiet, command_line);
+    cli::add_picture_commands(app, a.quiet);
     for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);

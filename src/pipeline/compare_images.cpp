@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -14,6 +13,7 @@
 #include "base/files.h"
 #include "gis/image_stream.h"
 #include "gis/raster_input.h"
+#include "pipeline/html_page.h"
 #include "pipeline/quicklook.h"
 
 namespace pyroscene::pipeline {
@@ -166,44 +166,40 @@ nlohmann::ordered_json scores_json(const CompareJob& job, const CompareReport& r
     return json;
 }
 
-std::string base64(const std::string& bytes) {
-    std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // the library ends it with a zero
-    const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()),
-                                       reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
-    out.resize(static_cast<std::size_t>(length));
-    return out;
-}
-
 std::string report_html(const CompareJob& job, const CompareReport& report, const std::string& picture) {
-    std::string html = fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Synthetic against "
-        "real</title><style>body{{font:15px sans-serif;"
-        "margin:2em;max-width:75em}}table{{border-collapse:collapse}}td,th{{padding:.3em .8em;border-bottom:1px solid "
-        "#ccc;text-align:right}}"
-        "td:first-child,th:first-child{{text-align:left}}img{{max-width:100%}}</style></head><body>\n<h1>Synthetic against "
-        "real</h1>\n"
-        "<p>synthetic: {}<br>real: {}</p>\n<p>The real image was moved by {:.2f} m to the east and {:.2f} m to the north "
-        "(pixel {:.4g} m, correlation peak "
-        "{:.3f}{}).</p>\n",
-        job.synthetic.filename().string(), job.real.filename().string(), report.shift_east_m, report.shift_north_m,
-        report.pixel_m, report.registration_response,
-        report.shift_believed ? "" : "; a larger shift was found and not believed");
-    html +=
-        "<table><tr><th>band</th><th>pixels</th><th>mean synthetic</th><th>mean "
-        "real</th><th>bias</th><th>RMSE</th><th>correlation</th><th>SSIM</th>"
-        "<th>fire threshold</th><th>Dice</th><th>front distance m</th><th>95 % m</th></tr>\n";
-    for (const auto& b : report.bands)
-        html += fmt::format(
-            "<tr><td>{} "
-            "[{}]</td><td>{}</td><td>{:.5g}</td><td>{:.5g}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:.4f}</td><td>{:.4f}</td>"
-            "<td>{:.4g}</td><td>{:.4f}</td><td>{:.4g}</td><td>{:.4g}</td></tr>\n",
-            b.name, b.unit, b.agreement.pixels, b.agreement.mean_a, b.agreement.mean_b, b.agreement.bias, b.agreement.rmse,
-            b.agreement.correlation, b.agreement.ssim, b.threshold, b.fire.dice, b.fire.front_distance_mean * report.pixel_m,
-            b.fire.front_distance_95 * report.pixel_m);
-    return html +
-           "</table>\n<p>Synthetic, real, difference:</p>\n<img alt=\"synthetic, real and their difference\" "
-           "src=\"data:image/png;base64," +
-           base64(picture) + "\">\n</body></html>\n";
+    HtmlPage page("Synthetic against real");
+    page.facts({{"synthetic", job.synthetic.filename().string()},
+                {"real", job.real.filename().string()},
+                {"pixel", fmt::format("{:.4g} m", report.pixel_m)},
+                {"real image moved east", fmt::format("{:.2f} m", report.shift_east_m)},
+                {"real image moved north", fmt::format("{:.2f} m", report.shift_north_m)},
+                {"registration (correlation peak)", fmt::format("{:.3f}", report.registration_response)}});
+    if (!report.shift_believed)
+        page.notice("A shift larger than allowed was found and not believed: the images are compared as they lie.");
+    std::vector<std::vector<std::string>> agreement, fire;
+    for (const auto& b : report.bands) {
+        const auto& a = b.agreement;
+        const auto name = fmt::format("{} [{}]", b.name, b.unit);
+        agreement.push_back({name, fmt::format("{}", a.pixels), fmt::format("{:.5g}", a.mean_a),
+                             fmt::format("{:.5g}", a.mean_b), fmt::format("{:.4g}", a.bias), fmt::format("{:.4g}", a.rmse),
+                             fmt::format("{:.4g}", a.mae), fmt::format("{:.4f}", a.correlation),
+                             fmt::format("{:.4f}", a.ssim)});
+        fire.push_back({name, fmt::format("{:.4g}", b.threshold), fmt::format("{}", b.fire.both),
+                        fmt::format("{}", b.fire.only_a), fmt::format("{}", b.fire.only_b),
+                        fmt::format("{:.4f}", b.fire.dice),
+                        fmt::format("{:.4g}", b.fire.front_distance_mean * report.pixel_m),
+                        fmt::format("{:.4g}", b.fire.front_distance_95 * report.pixel_m)});
+    }
+    page.heading(2, "Agreement of values");
+    page.table(
+        {"band", "pixels", "mean synthetic", "mean real", "bias", "RMSE", "mean abs. difference", "correlation", "SSIM"},
+        agreement);
+    page.heading(2, "Agreement of fire masks");
+    page.table({"band", "threshold", "both", "synthetic only", "real only", "Dice", "front distance, mean m", "95 % m"},
+               fire);
+    page.heading(2, "Pictures");
+    page.picture(picture, "synthetic, real and their difference", "Synthetic, real (registered) and synthetic - real.");
+    return page.text();
 }
 
 }  // namespace

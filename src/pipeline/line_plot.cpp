@@ -163,7 +163,35 @@ void draw_series(cv::Mat& canvas, const PlotSeries& series, const Frame& f, cons
     }
 }
 
-void draw_legend(cv::Mat& canvas, const LinePlot& plot, const cv::Rect& box) {
+/// Of the four corners of the frame the one whose legend would hide least of the curves.
+cv::Rect legend_place(const LinePlot& plot, const Frame& f, cv::Size size) {
+    constexpr int kAir = 8, kSteps = 16;
+    const auto& box = f.box;
+    const int left = box.x + kAir, right = box.x + box.width - size.width - kAir, top = box.y + kAir,
+              bottom = box.y + box.height - size.height - kAir;
+    cv::Rect best;
+    int fewest = std::numeric_limits<int>::max();
+    for (const cv::Point corner : {cv::Point(right, top), {left, top}, {right, bottom}, {left, bottom}}) {
+        const cv::Rect place(corner, size);
+        int hidden = 0;
+        for (const auto& series : plot.series)
+            for (std::size_t i = 0; i < series.x.size(); ++i) {
+                if (!f.x.shows(series.x[i]) || !f.y.shows(series.y[i])) continue;
+                const cv::Point here = f.at(series.x[i], series.y[i]) / (1 << kShift);
+                const bool line = !series.points && i > 0 && f.x.shows(series.x[i - 1]) && f.y.shows(series.y[i - 1]);
+                const cv::Point before = line ? f.at(series.x[i - 1], series.y[i - 1]) / (1 << kShift) : here;
+                for (int k = 1; k <= (line ? kSteps : 1); ++k)
+                    hidden += place.contains(before + (here - before) * (static_cast<double>(k) / kSteps)) ? 1 : 0;
+            }
+        if (hidden < fewest) {
+            fewest = hidden;
+            best = place;
+        }
+    }
+    return best;
+}
+
+void draw_legend(cv::Mat& canvas, const LinePlot& plot, const Frame& f) {
     constexpr double kSize = 0.45;
     constexpr int kRow = 20, kSample = 30;
     int widest = 0, rows = 0;
@@ -173,7 +201,7 @@ void draw_legend(cv::Mat& canvas, const LinePlot& plot, const cv::Rect& box) {
             ++rows;
         }
     if (rows == 0) return;
-    const cv::Rect frame(box.x + box.width - widest - kSample - 26, box.y + 8, widest + kSample + 18, rows * kRow + 8);
+    const cv::Rect frame = legend_place(plot, f, {widest + kSample + 18, rows * kRow + 8});
     cv::rectangle(canvas, frame, kPaper, cv::FILLED);
     cv::rectangle(canvas, frame, kGridLine);
     int y = frame.y + 18;
@@ -204,8 +232,25 @@ cv::Mat draw(const LinePlot& plot) {
     for (std::size_t i = 0; i < plot.series.size(); ++i)
         draw_series(canvas, plot.series[i], frame, kColours[i % std::size(kColours)]);
     cv::rectangle(canvas, frame.box, kInk);
-    draw_legend(canvas, plot, frame.box);
+    draw_legend(canvas, plot, frame);
     return canvas;
+}
+
+cv::Mat draw_sheet(std::span<const LinePlot> plots) {
+    std::vector<cv::Mat> drawn;
+    int width = 1, height = 0;
+    for (const auto& plot : plots) {
+        drawn.push_back(draw(plot));
+        width = std::max(width, drawn.back().cols);
+        height += drawn.back().rows;
+    }
+    cv::Mat sheet(std::max(1, height), width, CV_8UC3, kPaper);
+    int y = 0;
+    for (const auto& canvas : drawn) {
+        canvas.copyTo(sheet(cv::Rect(0, y, canvas.cols, canvas.rows)));
+        y += canvas.rows;
+    }
+    return sheet;
 }
 
 }  // namespace
@@ -238,21 +283,10 @@ std::array<int, 2> plot_area(const LinePlot& plot, bool with_colour_bar) {
     return {plot.width_px - kLeft - kRight - (with_colour_bar ? kColourBar : 0), plot.height_px - kTop - kBottom};
 }
 
+std::string line_plots_png(std::span<const LinePlot> plots) { return png_of(draw_sheet(plots)); }
+
 void write_line_plots(const std::filesystem::path& path, std::span<const LinePlot> plots) {
-    std::vector<cv::Mat> drawn;
-    int width = 1, height = 0;
-    for (const auto& plot : plots) {
-        drawn.push_back(draw(plot));
-        width = std::max(width, drawn.back().cols);
-        height += drawn.back().rows;
-    }
-    cv::Mat sheet(std::max(1, height), width, CV_8UC3, kPaper);
-    int y = 0;
-    for (const auto& canvas : drawn) {
-        canvas.copyTo(sheet(cv::Rect(0, y, canvas.cols, canvas.rows)));
-        y += canvas.rows;
-    }
-    write_picture_file(path, sheet);
+    write_picture_file(path, draw_sheet(plots));
 }
 
 }  // namespace pyroscene::pipeline

@@ -48,8 +48,10 @@ std::vector<double> axis_ticks(double low, double high, bool logarithmic, int ab
 /// Width and height in pixels that a diagram leaves inside its frame.
 std::array<int, 2> plot_area(const LinePlot& plot, bool with_colour_bar);
 
-/// PNG with the diagrams one below the other. Throws an input error when a diagram has no value to show or x and y differ in
-/// number, a runtime error naming the file when it cannot be written.
+/// Bytes of a PNG with the diagrams one below the other. Throws an input error when a diagram has no value to show or x and y
+/// differ in number.
+std::string line_plots_png(std::span<const LinePlot> plots);
+/// The same as a file; throws a runtime error naming it when it cannot be written.
 void write_line_plots(const std::filesystem::path& path, std::span<const LinePlot> plots);
 
 }  // namespace pyroscene::pipeline

@@ -11,7 +11,7 @@
 namespace pyroscene::pipeline {
 namespace {
 
-constexpr int kMargin = 12, kBarWidth = 18, kBarLabels = 92, kHeader = 30, kFooter = 34, kLargestSide = 900;
+constexpr int kMargin = 12, kBarWidth = 18, kBarLabels = 92, kHeader = 30, kFooter = 34, kCaption = 22, kLargestSide = 900;
 const cv::Scalar kInk(30, 30, 30), kPaper(255, 255, 255), kNoData(200, 200, 200);
 
 void text(cv::Mat& canvas, const std::string& words, cv::Point at, double scale = 0.45) {
@@ -37,6 +37,7 @@ ColourScale scale_of(const QuicklookPanel& panel) {
     for (const float v : panel.values)
         if (std::isfinite(v)) valid.push_back(v);
     ColourScale scale;
+    if (panel.lowest && panel.highest) return {*panel.lowest, *panel.highest, panel.logarithmic && *panel.lowest > 0.0};
     if (valid.empty()) return scale;
     std::sort(valid.begin(), valid.end());
     scale.low = valid[valid.size() / 200];
@@ -83,17 +84,6 @@ void draw_colour_bar(cv::Mat& canvas, cv::Rect bar, const ColourScale& scale, co
     text(canvas, unit, {bar.x - 2, bar.y + bar.height + 16}, 0.36);
 }
 
-/// 1, 2 or 5 times a power of ten, about a quarter of the picture wide.
-void draw_scale_bar(cv::Mat& canvas, cv::Point left, int picture_width, double metres_per_pixel) {
-    const double target_m = 0.25 * picture_width * metres_per_pixel;
-    const double decade = std::pow(10.0, std::floor(std::log10(target_m)));
-    const double length_m = target_m >= 5.0 * decade ? 5.0 * decade : target_m >= 2.0 * decade ? 2.0 * decade : decade;
-    const int length_px = static_cast<int>(std::lround(length_m / metres_per_pixel));
-    cv::rectangle(canvas, {left.x, left.y}, {left.x + length_px, left.y + 4}, kInk, cv::FILLED);
-    text(canvas, length_m >= 1000.0 ? fmt::format("{:g} km", length_m / 1000.0) : fmt::format("{:g} m", length_m),
-         {left.x + length_px + 8, left.y + 7}, 0.42);
-}
-
 cv::Mat draw_panel(const QuicklookPanel& panel, double pixel_m) {
     const auto scale = scale_of(panel);
     cv::Mat picture = colourise(panel, scale);
@@ -105,7 +95,7 @@ cv::Mat draw_panel(const QuicklookPanel& panel, double pixel_m) {
     picture.copyTo(canvas(cv::Rect(0, kHeader, picture.cols, picture.rows)));
     text(canvas, panel.title, {2, kHeader - 10}, 0.5);
     draw_colour_bar(canvas, cv::Rect(picture.cols + kMargin, kHeader, kBarWidth, picture.rows), scale, panel.unit);
-    draw_scale_bar(canvas, {4, kHeader + picture.rows + 12}, picture.cols, pixel_m / factor);
+    if (pixel_m > 0.0) draw_scale_bar(canvas, 4, kHeader + picture.rows + 12, picture.cols, pixel_m / factor);
     return canvas;
 }
 
@@ -113,20 +103,26 @@ cv::Mat draw_panel(const QuicklookPanel& panel, double pixel_m) {
 
 void write_quicklook(const std::filesystem::path& path, const std::string& caption, std::span<const QuicklookPanel> panels,
                      double pixel_m) {
+    constexpr std::size_t kMostInARow = 3;  // four stand two by two
+    const std::size_t columns = panels.size() <= kMostInARow ? panels.size() : (panels.size() + 1) / 2;
     std::vector<cv::Mat> drawn;
-    int width = kMargin, height = 0;
+    int width = kMargin, height = kMargin + kCaption, row_width = kMargin, row_height = 0;
+    std::vector<cv::Point> places;
     for (const auto& panel : panels) {
+        if (!drawn.empty() && drawn.size() % columns == 0) {
+            height += row_height + kMargin;
+            row_width = kMargin;
+            row_height = 0;
+        }
         drawn.push_back(draw_panel(panel, pixel_m));
-        width += drawn.back().cols + kMargin;
-        height = std::max(height, drawn.back().rows);
+        places.emplace_back(row_width, height);
+        row_width += drawn.back().cols + kMargin;
+        row_height = std::max(row_height, drawn.back().rows);
+        width = std::max(width, row_width);
     }
-    cv::Mat sheet(height + 2 * kMargin + 22, std::max(width, 400), CV_8UC3, kPaper);
+    cv::Mat sheet(height + row_height + kMargin, std::max(width, 400), CV_8UC3, kPaper);
     text(sheet, caption, {kMargin, kMargin + 12}, 0.5);
-    int x = kMargin;
-    for (const auto& canvas : drawn) {
-        canvas.copyTo(sheet(cv::Rect(x, kMargin + 22, canvas.cols, canvas.rows)));
-        x += canvas.cols + kMargin;
-    }
+    for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k].copyTo(sheet(cv::Rect(places[k], drawn[k].size())));
     write_picture_file(path, sheet);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,11 +12,12 @@ namespace pyroscene::pipeline {
 struct QuicklookPanel {
     std::string title, unit;
     int cols = 0, rows = 0;
-    std::vector<float> values;  ///< [row][col], NaN = no data
-    bool logarithmic = false;   ///< colour scale
+    std::vector<float> values;                  ///< [row][col], NaN = no data
+    bool logarithmic = false;                   ///< colour scale
+    std::optional<double> lowest{}, highest{};  ///< of the colour scale; default: from the values
 };
 
-/// PNG with the panels side by side, each with a colour bar, its numbers and a scale bar in metres; marked as synthetic.
+/// PNG with the panels side by side (more than three in two rows), each with a colour bar, its numbers and, where pixel_m is above 0, a scale bar in metres.
 /// Throws a runtime error naming the file.
 void write_quicklook(const std::filesystem::path& path, const std::string& caption, std::span<const QuicklookPanel> panels,
                      double pixel_m);

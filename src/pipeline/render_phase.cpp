@@ -221,7 +221,7 @@ void write_truth(const GroupJob& job, const RadianceImage& image, const std::vec
         pixels.insert(pixels.end(), plane.begin(), plane.end());
     };
     const auto fraction = [](const char* name) { return gis::OutputBand{name, "1", {}, {}, {}}; };
-    std::vector<float> smoke = image.smoke_fraction;
+    Buffer<float> smoke = image.smoke_fraction;
     if (smoke.empty()) {  // no plume: the fraction is 0 wherever something is seen
         smoke.resize(n);
         for (std::size_t i = 0; i < n; ++i) smoke[i] = image.flame_fraction[i] * 0.0F;

@@ -16,6 +16,7 @@
 #include "pipeline/fronts.h"
 #include "pipeline/products_phase.h"
 #include "pipeline/render_phase.h"
+#include "pipeline/run_html.h"
 #include "pipeline/run_report_file.h"
 #include "pipeline/state_file.h"
 
@@ -214,6 +215,7 @@ void render_phase(Session& s) {
 
 void products_phase(Session& s) {
     const PhaseTimer timer(s.report, "products");
+    std::vector<ReportImage> images;
     for (const auto* acquisition : chosen_acquisitions(s.scenario, s.options)) {
         const auto sensor = sensors::load_sensor(acquisition->sensor);
         const auto groups = wanted_groups(*acquisition, sensor);
@@ -236,9 +238,15 @@ void products_phase(Session& s) {
                 s.report.count("product_sets_made", 1);
             else
                 s.report.count("product_sets_skipped", 1);
+            images.push_back({acquisition, sensor.name, id, files, job.fingerprint});
         }
+        keep_energy(s.report, s.options.output, acquisition->id);
     }
     write_catalog(s.scenario, s.options.output);
+    if (s.scenario.products.report) {
+        const PhaseTimer page(s.report, "products/report");
+        write_html_report(s.scenario, s.inputs, images, s.options, s.report);
+    }
 }
 
 /// Runs some phases and writes run.json whatever happens.

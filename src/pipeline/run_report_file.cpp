@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -51,6 +52,20 @@ void write_run_report(const scenario::Scenario& scenario, const RunOptions& opti
     json["peak_memory_MB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
     json["warnings"] = report.warnings();
     write_text_file(options.output / "run.json", json.dump(2) + "\n");
+}
+
+void keep_energy(RunReport& report, const std::filesystem::path& output, const std::string& acquisition_id) {
+    const auto prefix = "energy/" + acquisition_id + "/";
+    const auto values = report.values();
+    const auto recorded = values.lower_bound(prefix);
+    if (recorded != values.end() && recorded->first.starts_with(prefix)) return;
+    std::ifstream in(output / "run.json");
+    const auto earlier = nlohmann::json::parse(in, nullptr, false);
+    if (!earlier.is_object()) return;
+    const auto budgets = earlier.value("energy_budget", nlohmann::json::object());
+    const auto budget = budgets.value(acquisition_id, nlohmann::json::object());
+    for (const auto& [name, value] : budget.items())
+        if (value.is_number()) report.record(prefix + name, value.get<double>());
 }
 
 }  // namespace pyroscene::pipeline

@@ -12,4 +12,7 @@ namespace pyroscene::pipeline {
 void write_run_report(const scenario::Scenario& scenario, const RunOptions& options, const RunReport& report,
                       const Fingerprints* fingerprints, const std::string& failure);
 
+/// Takes over the energy budget of an acquisition from the OUT/run.json of an earlier run when this one skipped its image.
+void keep_energy(RunReport& report, const std::filesystem::path& output, const std::string& acquisition_id);
+
 }  // namespace pyroscene::pipeline

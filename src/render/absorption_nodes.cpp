@@ -1,9 +1,13 @@
 #include "render/absorption_nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+
+#include "render/plane_trace.h"
+#include "render/spectral_kernels.h"
 
 namespace pyroscene::render {
 namespace {
@@ -14,15 +18,17 @@ constexpr double kLeastShare = 1e-3;  ///< of the largest k: fainter flame than 
 
 }  // namespace
 
-AbsorptionNodes::AbsorptionNodes(std::span<const float> absorption_per_m) : lambdas_(absorption_per_m.size()) {
+AbsorptionNodes::AbsorptionNodes(std::span<const float> absorption_per_m)
+    : stride_(padded(static_cast<int>(absorption_per_m.size()))) {
     const double highest = std::max(*std::max_element(absorption_per_m.begin(), absorption_per_m.end()), 1e-12F);
     const double lowest = std::max(static_cast<double>(*std::min_element(absorption_per_m.begin(), absorption_per_m.end())),
                                    kLeastShare * highest);
-    if (!make_nodes(lowest, highest, kNodeRatio)) return;
-    for (const float k : absorption_per_m) places_.push_back(place(static_cast<double>(k)));
+    make_nodes(lowest, highest, kNodeRatio);
+    for (std::size_t l = 0; l < absorption_per_m.size(); ++l) add(l, static_cast<double>(absorption_per_m[l]), 1.0);
 }
 
-AbsorptionNodes::AbsorptionNodes(std::span<const std::vector<radiometry::AbsorptionPart>> mixes) : lambdas_(mixes.size()) {
+AbsorptionNodes::AbsorptionNodes(std::span<const std::vector<radiometry::AbsorptionPart>> mixes)
+    : stride_(padded(static_cast<int>(mixes.size()))) {
     double highest = 1e-12, lowest = std::numeric_limits<double>::infinity();
     for (const auto& mix : mixes) {
         for (const auto& part : mix) {
@@ -31,28 +37,34 @@ AbsorptionNodes::AbsorptionNodes(std::span<const std::vector<radiometry::Absorpt
         }
     }
     highest = std::min(highest, std::max(kMostOfMixtures_per_m, lowest));
-    if (!make_nodes(std::max(lowest, kLeastShareOfMixtures * highest), highest, kNodeRatioOfMixtures)) return;
-    mix_weight_.resize(mixes.size() * k_per_m_.size());
-    for (std::size_t l = 0; l < mixes.size(); ++l) {
-        for (const auto& part : mixes[l]) {
-            const Place at = place(part.k_per_m);
-            float* weight = mix_weight_.data() + l * k_per_m_.size() + at.first;
-            for (std::size_t i = 0; i < 4; ++i) weight[i] += static_cast<float>(part.weight) * at.weight[i];
-        }
-    }
+    make_nodes(std::max(lowest, kLeastShareOfMixtures * highest), highest, kNodeRatioOfMixtures);
+    for (std::size_t l = 0; l < mixes.size(); ++l)
+        for (const auto& part : mixes[l]) add(l, part.k_per_m, part.weight);
 }
 
-bool AbsorptionNodes::make_nodes(double lowest_per_m, double highest_per_m, double ratio) {
+void AbsorptionNodes::make_nodes(double lowest_per_m, double highest_per_m, double ratio) {
     if (highest_per_m / lowest_per_m < 1.0 + 1e-6) {
         k_per_m_.assign(1, static_cast<float>(highest_per_m));
-        return false;
+    } else {
+        const int nodes =
+            std::max(4, static_cast<int>(std::ceil(std::log(highest_per_m / lowest_per_m) / std::log(ratio))) + 1);
+        lowest_per_m_ = lowest_per_m;
+        step_ = std::log(highest_per_m / lowest_per_m) / (nodes - 1);
+        highest_per_m_ = highest_per_m;
+        for (int i = 0; i < nodes; ++i) k_per_m_.push_back(static_cast<float>(lowest_per_m * std::exp(step_ * i)));
     }
-    const int nodes = std::max(4, static_cast<int>(std::ceil(std::log(highest_per_m / lowest_per_m) / std::log(ratio))) + 1);
-    lowest_per_m_ = lowest_per_m;
-    step_ = std::log(highest_per_m / lowest_per_m) / (nodes - 1);
-    highest_per_m_ = highest_per_m;
-    for (int i = 0; i < nodes; ++i) k_per_m_.push_back(static_cast<float>(lowest_per_m * std::exp(step_ * i)));
-    return true;
+    weight_.assign(k_per_m_.size() * static_cast<std::size_t>(stride_), 0.0F);
+}
+
+void AbsorptionNodes::add(std::size_t l, double k_per_m, double share) {
+    const auto stride = static_cast<std::size_t>(stride_);
+    if (count() == 1) {
+        weight_[l] = 1.0F;
+        return;
+    }
+    const Place at = place(k_per_m);
+    for (std::size_t i = 0; i < 4; ++i)
+        weight_[(static_cast<std::size_t>(at.first) + i) * stride + l] += static_cast<float>(share) * at.weight[i];
 }
 
 AbsorptionNodes::Place AbsorptionNodes::place(double k_per_m) const noexcept {
@@ -69,26 +81,11 @@ AbsorptionNodes::Place AbsorptionNodes::place(double k_per_m) const noexcept {
     return found;
 }
 
-void AbsorptionNodes::interpolate(const float* at_nodes, int spacing, std::span<float> out) const noexcept {
-    if (count() == 1) {
-        std::fill(out.begin(), out.end(), at_nodes[0]);
-        return;
-    }
-    if (!mix_weight_.empty()) {
-        for (std::size_t l = 0; l < lambdas_; ++l) {
-            const float* weight = mix_weight_.data() + l * k_per_m_.size();
-            float sum = 0.0F;
-            for (std::size_t i = 0; i < k_per_m_.size(); ++i)
-                sum += weight[i] * at_nodes[static_cast<std::ptrdiff_t>(i) * spacing];
-            out[l] = sum;
-        }
-        return;
-    }
-    for (std::size_t l = 0; l < places_.size(); ++l) {
-        const Place& p = places_[l];
-        const float* v = at_nodes + static_cast<std::ptrdiff_t>(p.first) * spacing;
-        out[l] = p.weight[0] * v[0] + p.weight[1] * v[spacing] + p.weight[2] * v[2 * spacing] + p.weight[3] * v[3 * spacing];
-    }
+void AbsorptionNodes::interpolate(const float* at_nodes, int spacing, float* out) const noexcept {
+    std::array<float, PlaneTrace::kMaximumNodes> value{};
+    for (std::size_t i = 0; i < k_per_m_.size(); ++i) value[i] = at_nodes[static_cast<std::ptrdiff_t>(i) * spacing];
+    std::fill(out, out + stride_, 0.0F);
+    spectral_kernels().add_rows(stride_, weight_.data(), stride_, count(), value.data(), out);
 }
 
 }  // namespace pyroscene::render

@@ -20,22 +20,23 @@ public:
     /// Node values of k, ascending; a single one when all wavelengths have the same.
     [[nodiscard]] const std::vector<float>& k_per_m() const noexcept { return k_per_m_; }
     [[nodiscard]] int count() const noexcept { return static_cast<int>(k_per_m_.size()); }
-    /// out[l] = value at wavelength l, from the values at the nodes, at_nodes[i * spacing].
-    void interpolate(const float* at_nodes, int spacing, std::span<float> out) const noexcept;
+    /// out[l] = value at wavelength l, from the values at the nodes, at_nodes[i * spacing]. `out` has room for the wavelengths
+    /// padded to whole vectors.
+    void interpolate(const float* at_nodes, int spacing, float* out) const noexcept;
 
 private:
     struct Place {
         int first = 0;
         float weight[4] = {1.0F, 0.0F, 0.0F, 0.0F};
     };
-    /// Nodes between two absorption coefficients; false: a single one.
-    bool make_nodes(double lowest_per_m, double highest_per_m, double ratio);
+    void make_nodes(double lowest_per_m, double highest_per_m, double ratio);
     [[nodiscard]] Place place(double k_per_m) const noexcept;
+    /// Makes wavelength l depend on the nodes around k with the given share.
+    void add(std::size_t l, double k_per_m, double share);
 
     std::vector<float> k_per_m_;
-    std::vector<Place> places_;      ///< per wavelength; empty for mixtures
-    std::vector<float> mix_weight_;  ///< [wavelength][node] of mixtures
-    std::size_t lambdas_ = 0;
+    int stride_ = 0;                                                ///< wavelengths padded to whole vectors
+    std::vector<float> weight_;                                     ///< [node][wavelength]
     double lowest_per_m_ = 0.0, highest_per_m_ = 0.0, step_ = 0.0;  ///< of ln k between nodes
 };
 

@@ -122,15 +122,14 @@ private:
     void sum_flame(float* irradiance) {
         const int moments = shared_->planck.moments();
         const float* emitted = light_.emitted().data();
-        const std::span<float> lambdas(of_moment_.data(), static_cast<std::size_t>(tables_->lambdas));
-        shared_->nodes.interpolate(emitted, moments, {opacity_.data(), lambdas.size()});
+        shared_->nodes.interpolate(emitted, moments, opacity_.data());
         if (std::all_of(opacity_.begin(), opacity_.end(), [](float o) { return o == 0.0F; })) return;
         for (int m = 0; m < moments; ++m) {
-            shared_->nodes.interpolate(emitted + m, moments, lambdas);
+            shared_->nodes.interpolate(emitted + m, moments, of_moment_.data());
             kernels_->add_product(tables_->stride, 1.0F, of_moment_.data(), shared_->planck.row(m), irradiance);
         }
         // Where only much colder flame than the hottest is seen, the series may err to below zero at short wavelengths.
-        for (std::size_t l = 0; l < lambdas.size(); ++l) irradiance[l] = std::max(irradiance[l], 0.0F);
+        for (int l = 0; l < tables_->lambdas; ++l) irradiance[l] = std::max(irradiance[l], 0.0F);
     }
 
     /// The slopes that hide the sky: fills `terrain_` with their own emission and what they reflect of sun and open sky,

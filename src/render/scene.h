@@ -145,15 +145,15 @@ struct ImageRequest {
 /// What one image holds before the detector. Planes are [line][sample], cubes [band][line][sample]; NaN where nothing is hit.
 struct RadianceImage {
     int samples = 0, lines = 0, bands = 0;
-    Buffer<float> radiance_W_m2_sr_um;              ///< [band][line][sample], noise-free
-    std::array<Buffer<float>, kTermCount> terms;    ///< each as radiance, empty when not asked for (or no plume)
-    std::vector<double> hit_x_m, hit_y_m, hit_z_m;  ///< PSF-weighted mean ground point, scene frame
-    std::vector<float> coverage;                    ///< weight of sub-rays that met the scene, 0..1
-    std::vector<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum with smoke = 1
-    std::vector<float> smoke_fraction;         ///< empty in scenes without a plume
-    std::vector<float> flame_temperature_K;    ///< emission-weighted, NaN without flame
-    std::vector<float> ground_temperature_K;   ///< (mean T^4)^(1/4) of the ground seen
-    std::vector<float> radiant_exitance_W_m2;  ///< true FRP per ground area: flame + front + (scar - ambient)
+    Buffer<float> radiance_W_m2_sr_um;            ///< [band][line][sample], noise-free
+    std::array<Buffer<float>, kTermCount> terms;  ///< each as radiance, empty when not asked for (or no plume)
+    Buffer<double> hit_x_m, hit_y_m, hit_z_m;     ///< PSF-weighted mean ground point, scene frame
+    Buffer<float> coverage;                       ///< weight of sub-rays that met the scene, 0..1
+    Buffer<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum with smoke = 1
+    Buffer<float> smoke_fraction;                                                      ///< empty in scenes without a plume
+    Buffer<float> flame_temperature_K;    ///< emission-weighted, NaN without flame
+    Buffer<float> ground_temperature_K;   ///< (mean T^4)^(1/4) of the ground seen
+    Buffer<float> radiant_exitance_W_m2;  ///< true FRP per ground area: flame + front + (scar - ambient)
 };
 
 /// The image. Bit-identical for any thread count. Throws Cancelled when the monitor asks.

@@ -131,7 +131,7 @@ bool* product_flag(Products& products, const std::string& name) {
         {"radiance", &products.radiance},   {"brightness_temperature", &products.brightness_temperature},
         {"ortho", &products.ortho},         {"truth", &products.truth},
         {"fractions", &products.fractions}, {"frp", &products.frp},
-        {"quicklook", &products.quicklook}};
+        {"quicklook", &products.quicklook}, {"report", &products.report}};
     const auto found = flags.find(name);
     return found == flags.end() ? nullptr : found->second;
 }
@@ -159,7 +159,7 @@ std::vector<Acquisition> read_acquisitions(const config::Node& node, const fs::p
 
 Products read_products(const config::Node& node) {
     if (!node.present()) return {};
-    Products products{false, false, false, false, false, false, false};
+    Products products{false, false, false, false, false, false, false, false};
     for (const auto& name : read_words(node)) {
         bool* flag = product_flag(products, name);
         const std::string guess = config::nearest(name, kProductNames);

@@ -143,7 +143,7 @@ struct Acquisition {
 
 struct Products {
     bool radiance = true, brightness_temperature = true, ortho = true, truth = true, fractions = true, frp = true,
-         quicklook = true;
+         quicklook = true, report = true;
 };
 
 /// All that the user asked for, fully checked by load(): files exist, sensors are known, numbers are in range.

@@ -340,8 +340,8 @@ constexpr const char* kSchema = R"json({
       "type": "array",
       "minItems": 1,
       "uniqueItems": true,
-      "items": {"enum": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook"]},
-      "default": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook"]
+      "items": {"enum": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report"]},
+      "default": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report"]
     },
     "seed": {"type": "integer", "minimum": 0, "default": 1}
   },

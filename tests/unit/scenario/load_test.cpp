@@ -40,7 +40,7 @@ TEST(Load, ShortestScenarioGetsTheDefaults) {
     EXPECT_EQ(s.render.samples_per_axis, 3);
     EXPECT_TRUE(s.render.flame_light && s.render.sun);
     EXPECT_TRUE(s.products.radiance && s.products.brightness_temperature && s.products.ortho && s.products.truth &&
-                s.products.fractions && s.products.frp && s.products.quicklook);
+                s.products.fractions && s.products.frp && s.products.quicklook && s.products.report);
     EXPECT_EQ(s.seed, 1U);
     ASSERT_EQ(s.acquisitions.size(), 1U);
     EXPECT_EQ(s.acquisitions[0].line, 7);
@@ -82,7 +82,7 @@ scar:      {model: double_exponential}
 atmosphere: {model: midlatitude_summer, visibility_km: 23}
 acquisitions:
   - {id: wasp_1h, sensor: wasp, time_s: 3600, platform: {over: centre, altitude_agl_m: 3000, heading_deg: 0}}
-products: [radiance, brightness_temperature, ortho, truth, fractions, frp, quicklook]
+products: [radiance, brightness_temperature, ortho, truth, fractions, frp, quicklook, report]
 seed: 1
 )");
     EXPECT_TRUE(s.inputs.wind->raster->bands.empty());
@@ -153,7 +153,7 @@ TEST(Load, ProductsAreThoseNamed) {
               Lines{"8: products: expected a list of names; leave the key out for all"});
     EXPECT_EQ(folder.problems(shortest("products: [xyzxyzxyz]\n")),
               Lines{"8: products: 'xyzxyzxyz' is none of radiance, brightness_temperature, ortho, truth, fractions, frp, "
-                    "quicklook"});
+                    "quicklook, report"});
 }
 
 TEST(Load, MissingScenarioIsAnInputError) {

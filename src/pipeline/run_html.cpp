@@ -1,0 +1,312 @@
+#include "pipeline/run_html.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/csv.h"
+#include "base/files.h"
+#include "gis/geodesy.h"
+#include "gis/raster_output.h"
+#include "pipeline/fire_map.h"
+#include "pipeline/hash.h"
+#include "pipeline/html_page.h"
+#include "pipeline/image_digest.h"
+#include "pipeline/line_plot.h"
+#include "pipeline/stac.h"
+#include "pipeline/state_file.h"
+
+namespace pyroscene::pipeline {
+namespace {
+
+constexpr std::size_t kMostImages = 24;
+using Json = nlohmann::json;
+
+/// An image with what its files say of it.
+struct ShownImage {
+    const ReportImage* image = nullptr;
+    ImageDigest digest;
+    Json item;  ///< STAC
+
+    [[nodiscard]] std::string id() const { return image->acquisition->id + image->files.suffix; }
+    [[nodiscard]] double property(const char* name) const {
+        return item.value("properties", Json::object()).value(name, std::nan(""));
+    }
+};
+
+std::string number(double value, const char* unit = "") {
+    if (!std::isfinite(value)) return "–";
+    return fmt::format("{:.4g}{}{}", value, *unit != '\0' ? " " : "", unit);
+}
+
+std::string utc(const scenario::Scenario& scenario, double time_s) {
+    return scenario::UtcTime{scenario.start.unix_s + time_s}.iso8601();
+}
+
+std::vector<std::string> fraction_heads(const ImageDigest& digest) {
+    std::vector<std::string> names;
+    for (const auto& [name, mean] : digest.mean_fractions) names.push_back(name);
+    return names;
+}
+
+/// Places of at most `most` bands, evenly over all.
+std::vector<std::size_t> some_bands(std::size_t count, std::size_t most) {
+    std::vector<std::size_t> chosen;
+    for (std::size_t k = 0; k < std::min(count, most); ++k)
+        chosen.push_back(count <= most ? k : k * (count - 1) / (most - 1));
+    return chosen;
+}
+
+std::string band_label(const gis::OutputBand& band, std::size_t k) {
+    const auto id = band.metadata.find("band_id");
+    const auto name = id != band.metadata.end() ? id->second : fmt::format("band {}", k + 1);
+    return band.wavelength_um ? fmt::format("{} {:.3g} um", name, *band.wavelength_um) : name;
+}
+
+void show_spectra(HtmlPage& page, const ShownImage& shown) {
+    const auto& digest = shown.digest;
+    page.heading(4, "Spectra of picked pixels");
+    LinePlot plot{"",
+                  {digest.bands.size() > 1 ? "wavelength [um]" : "wavelength [um], one band", false, {}, {}},
+                  {"radiance [W m-2 sr-1 um-1]", true, {}, {}},
+                  {},
+                  900,
+                  420,
+                  {}};
+    for (const auto& p : digest.picked) {
+        PlotSeries series{p.kind, {}, p.radiance_W_m2_sr_um, digest.bands.size() == 1};
+        for (std::size_t b = 0; b < digest.bands.size(); ++b)
+            series.x.push_back(digest.bands[b].wavelength_um.value_or(static_cast<double>(b + 1)));
+        plot.series.push_back(std::move(series));
+    }
+    const bool positive =
+        std::any_of(digest.statistics.begin(), digest.statistics.end(), [](const auto& s) { return s.highest > 0.0; });
+    if (positive && !plot.series.empty())
+        page.picture(line_plots_png(std::span(&plot, 1)), "spectra of picked pixels of " + shown.id(),
+                     "Radiance as the detector reports it, band by band.");
+    std::vector<std::string> head{"pixel", "sample", "line", "longitude", "latitude"};
+    for (const auto& name : fraction_heads(digest)) head.push_back(name + " %");
+    head.insert(head.end(), {"ground K", "flame K"});
+    const auto bands = some_bands(digest.bands.size(), 4);
+    for (const auto b : bands) head.push_back("L " + band_label(digest.bands[b], b));
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& p : digest.picked) {
+        rows.push_back({p.kind, std::to_string(p.sample), std::to_string(p.line), fmt::format("{:.5f}", p.longitude_deg),
+                        fmt::format("{:.5f}", p.latitude_deg)});
+        for (const double f : p.fractions) rows.back().push_back(fmt::format("{:.2f}", 100.0 * f));
+        rows.back().push_back(number(p.ground_temperature_K));
+        rows.back().push_back(number(p.flame_temperature_K));
+        for (const auto b : bands) rows.back().push_back(number(p.radiance_W_m2_sr_um[b]));
+    }
+    page.table(head, rows);
+}
+
+void show_histogram(HtmlPage& page, const ShownImage& shown) {
+    const auto& digest = shown.digest;
+    LinePlot plot{"", {"radiance [W m-2 sr-1 um-1]", true, {}, {}}, {"pixels", true, 0.8, {}}, {}, 900, 360, {}};
+    for (const auto b : some_bands(digest.bands.size(), 4))
+        if (!digest.statistics[b].counts.empty())
+            plot.series.push_back(
+                {band_label(digest.bands[b], b), digest.statistics[b].bin_centres, digest.statistics[b].counts, false});
+    page.heading(4, "Histogram");
+    if (plot.series.empty()) return page.paragraph("No band holds a radiance above 0.");
+    page.picture(line_plots_png(std::span(&plot, 1)), "histogram of radiance of " + shown.id(),
+                 "Pixels per bin of radiance, 80 bins of equal ratio.");
+    std::vector<std::vector<std::string>> rows;
+    for (const auto b : some_bands(digest.bands.size(), 12)) {
+        const auto& s = digest.statistics[b];
+        rows.push_back({band_label(digest.bands[b], b), number(s.lowest), number(s.mean), number(s.highest)});
+    }
+    page.table({"band", "lowest", "mean", "highest, W m-2 sr-1 um-1"}, rows);
+}
+
+void show_image(HtmlPage& page, const scenario::Scenario& scenario, const ShownImage& shown) {
+    const auto& image = *shown.image;
+    const auto& digest = shown.digest;
+    page.heading(3, shown.id(), shown.id());
+    page.facts({{"sensor", image.sensor + ", " + image.group},
+                {"time", utc(scenario, image.acquisition->time_s)},
+                {"after the start", number(image.acquisition->time_s / 60.0, "min")},
+                {"image", fmt::format("{} x {}, {} band{}", digest.samples, digest.lines, digest.bands.size(),
+                                      digest.bands.size() == 1 ? "" : "s")},
+                {"pixel on the ground", number(shown.property("gsd"), "m")},
+                {"view zenith, centre", number(shown.property("view:off_nadir"), "deg")},
+                {"sun elevation", number(shown.property("view:sun_elevation"), "deg")},
+                {"pixels with fire", std::to_string(digest.fire_pixels)},
+                {"fire radiative power seen", digest.seen_frp_MW ? number(*digest.seen_frp_MW, "MW") : "–"}});
+    const auto quicklook = image.files.folder / ("quicklook" + image.files.suffix + ".png");
+    if (std::filesystem::exists(quicklook))
+        page.picture(read_text_file(quicklook), "quick-look of " + shown.id(), "Quick-look, sensor geometry.");
+    if (!digest.mean_fractions.empty()) {
+        page.heading(4, "Truth: what the pixels hold");
+        std::vector<std::string> row{"mean over the image, %"};
+        for (const auto& [name, mean] : digest.mean_fractions) row.push_back(fmt::format("{:.3f}", 100.0 * mean));
+        auto head = fraction_heads(digest);
+        head.insert(head.begin(), "fraction");
+        page.table(head, {row});
+    }
+    show_spectra(page, shown);
+    show_histogram(page, shown);
+}
+
+std::vector<MapOutline> footprints(const SceneInputs& inputs, const std::vector<ShownImage>& images) {
+    const gis::MapProjection projection(inputs.grid.crs_wkt);
+    std::vector<MapOutline> outlines;
+    for (const auto& shown : images) {
+        const auto geometry = shown.item.value("geometry", Json::object());
+        if (!geometry.contains("coordinates") || geometry["coordinates"].empty()) continue;
+        MapOutline outline{shown.id(), {}};
+        for (const auto& point : geometry["coordinates"][0])
+            outline.ring_xy_m.push_back(projection.to_map(point.at(1).get<double>(), point.at(0).get<double>()));
+        const auto same = std::find_if(outlines.begin(), outlines.end(), [&](const auto& other) {
+            return std::equal(
+                other.ring_xy_m.begin(), other.ring_xy_m.end(), outline.ring_xy_m.begin(), outline.ring_xy_m.end(),
+                [&](const auto& a, const auto& b) { return std::hypot(a[0] - b[0], a[1] - b[1]) < inputs.grid.cell_m; });
+        });
+        if (same == outlines.end())
+            outlines.push_back(std::move(outline));
+        else
+            same->label += ", " + outline.label;
+    }
+    return outlines;
+}
+
+void show_map(HtmlPage& page, const scenario::Scenario& scenario, const SceneInputs& inputs, const RunOptions& options,
+              const std::vector<ShownImage>& images) {
+    double time_s = images.front().image->acquisition->time_s;
+    for (const auto& shown : images) time_s = std::max(time_s, shown.image->acquisition->time_s);
+    const auto frame = inputs.frames[frame_at(inputs.frames, time_s, images.front().image->acquisition->id)].time_s;
+    const auto path = state_path(options.output, frame);
+    if (!std::filesystem::exists(path)) return;
+    const auto state = read_state(path, inputs.grid, inputs.arrival_time_s);
+    page.heading(2, "Map", "map");
+    page.picture(
+        fire_map_png(inputs.terrain_m, state, footprints(inputs, images)), "map of the fire",
+        fmt::format("The fire at {} ({:.0f} s after the start) on shaded terrain, with the ground that the images see.",
+                    utc(scenario, frame), frame));
+}
+
+/// Value recorded as energy/<acquisition>/<name>; NaN when it was not.
+double energy(const std::map<std::string, double>& values, const std::string& acquisition, const char* name) {
+    const auto found = values.find("energy/" + acquisition + "/" + name);
+    return found == values.end() ? std::nan("") : found->second;
+}
+
+/// Heat release of all frames as their state files tell it, seen and radiated power of the acquisitions.
+void show_power(HtmlPage& page, const SceneInputs& inputs, const RunOptions& options, const RunReport& report,
+                const std::vector<ShownImage>& images) {
+    PlotSeries released{"heat release, frames", {}, {}, false}, radiated{"front and flame radiate", {}, {}, true},
+        seen{"fire radiative power seen", {}, {}, true};
+    for (const auto& frame : inputs.frames) {
+        const auto path = state_path(options.output, frame.time_s);
+        const auto metadata = gis::read_metadata(path);
+        if (!metadata || !metadata->contains("HEAT_RELEASE_W")) continue;
+        released.x.push_back(frame.time_s / 60.0);
+        released.y.push_back(1e-6 * parse_number(metadata->at("HEAT_RELEASE_W"), path.string() + ": HEAT_RELEASE_W"));
+    }
+    const auto values = report.values();
+    for (const auto& shown : images) {
+        const auto& a = *shown.image->acquisition;
+        radiated.x.push_back(a.time_s / 60.0);
+        radiated.y.push_back(1e-6 * (energy(values, a.id, "front_W") + energy(values, a.id, "flame_W")));
+        if (!shown.digest.seen_frp_MW) continue;
+        seen.x.push_back(a.time_s / 60.0);
+        seen.y.push_back(*shown.digest.seen_frp_MW);
+    }
+    LinePlot plot{"",
+                  {"minutes after the start", false, {}, {}},
+                  {"power [MW]", true, {}, {}},
+                  {std::move(released), std::move(radiated), std::move(seen)},
+                  900,
+                  400,
+                  {}};
+    const bool any = std::any_of(plot.series.begin(), plot.series.end(), [](const auto& series) {
+        return std::any_of(series.y.begin(), series.y.end(), [](double y) { return y > 0.0; });
+    });
+    if (!any) return;
+    page.heading(2, "Power over time", "power");
+    page.picture(
+        line_plots_png(std::span(&plot, 1)), "power over time",
+        "Heat that the frames release, what front and flame radiate of it, and the fire radiative power that each image "
+        "sees (true, without noise and background; less where the image does not hold the whole fire).");
+}
+
+void show_energy(HtmlPage& page, const RunReport& report, const std::vector<ShownImage>& images) {
+    const auto values = report.values();
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& shown : images) {
+        const auto& id = shown.image->acquisition->id;
+        const auto MW = [&](const char* name) { return number(1e-6 * energy(values, id, name)); };
+        rows.push_back({shown.id(), MW("heat_release_W"), MW("front_W"), MW("flame_W"), MW("scar_W"),
+                        number(100.0 * energy(values, id, "radiant_fraction")),
+                        shown.digest.seen_frp_MW ? number(*shown.digest.seen_frp_MW) : "–"});
+    }
+    page.heading(2, "Energy budget", "energy");
+    page.table({"image", "heat release MW", "front MW", "flame MW", "scar MW", "radiant fraction %", "seen FRP MW"}, rows);
+    const double heat_J = energy(values, "inputs", "heat_released_J"), fuel_J = energy(values, "inputs", "fuel_heat_J");
+    if (std::isfinite(heat_J))
+        page.paragraph(fmt::format(
+            "Over all frames the heat flux releases {:.4g} GJ{}.", 1e-9 * heat_J,
+            std::isfinite(fuel_J) ? fmt::format("; the fuel that burnt holds {:.4g} GJ", 1e-9 * fuel_J) : std::string()));
+    page.paragraph("Front and flame: what they emit into all directions (flames optically thin). Scar: above ambient.");
+}
+
+void show_overview(HtmlPage& page, const scenario::Scenario& scenario, const SceneInputs& inputs,
+                   const std::vector<ShownImage>& images, const RunReport& report) {
+    page.paragraph((scenario.title.empty() ? std::string() : scenario.title + ". ") +
+                   "Synthetic images of a simulated wildland fire, made by Pyroscene.");
+    std::vector<std::pair<std::string, std::string>> links{{"Map", "#map"}, {"Power", "#power"}, {"Energy", "#energy"}};
+    for (const auto& shown : images) links.emplace_back(shown.id(), "#" + shown.id());
+    links.emplace_back("run.json", "run.json");
+    page.links(links);
+    page.facts({{"start of the fire", scenario.start.iso8601()},
+                {"physics", scenario.physics == fire::Physics::Thesis ? "thesis" : "default"},
+                {"atmosphere", scenario.atmosphere.model},
+                {"map", fmt::format("{} x {} cells of {:.4g} m", inputs.grid.cols, inputs.grid.rows, inputs.grid.cell_m)},
+                {"centre", fmt::format("{:.4f}, {:.4f}", inputs.centre.lat_deg, inputs.centre.lon_deg)},
+                {"frames", std::to_string(inputs.frames.size())},
+                {"images", std::to_string(images.size())},
+                {"program", "pyroscene " + version()}});
+    page.heading(2, "Warnings");
+    const auto warnings = report.warnings();
+    if (warnings.empty()) page.paragraph("None.");
+    for (const auto& warning : warnings) page.notice(warning);
+}
+
+}  // namespace
+
+void write_html_report(const scenario::Scenario& scenario, const SceneInputs& inputs, const std::vector<ReportImage>& images,
+                       const RunOptions& options, const RunReport& report) {
+    if (images.empty()) return;
+    const auto path = options.output / "report.html";
+    std::string prints;
+    for (const auto& image : images) prints += image.fingerprint + image.files.suffix;
+    const auto fingerprint = sha256(prints).substr(0, 32);
+    if (!options.force && std::filesystem::exists(path) &&
+        read_text_file(path).find("name=\"fingerprint\" content=\"" + fingerprint + "\"") != std::string::npos)
+        return;
+    std::vector<ShownImage> shown;
+    for (const auto& image : images) {
+        std::ifstream item(stac_item_path(image.files));
+        auto json = Json::parse(item, nullptr, false);
+        shown.push_back({&image, digest_image(image.files), json.is_discarded() ? Json::object() : std::move(json)});
+    }
+    HtmlPage page(scenario.name, {{"generator", "pyroscene " + version()}, {"fingerprint", fingerprint}});
+    show_overview(page, scenario, inputs, shown, report);
+    show_map(page, scenario, inputs, options, shown);
+    show_power(page, inputs, options, report, shown);
+    show_energy(page, report, shown);
+    page.heading(2, "Images");
+    for (std::size_t k = 0; k < std::min(shown.size(), kMostImages); ++k) show_image(page, scenario, shown[k]);
+    if (shown.size() > kMostImages)
+        page.paragraph(fmt::format("{} more images are in the tables above only.", shown.size() - kMostImages));
+    page.open_details("The scenario file");
+    page.preformatted(read_text_file(scenario.path));
+    page.close_details();
+    write_text_file(path, page.text());
+}
+
+}  // namespace pyroscene::pipeline

@@ -1,0 +1,248 @@
+#include "spread/propagate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "base/error.h"
+#include "spread/ring.h"
+
+namespace pyroscene::spread {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+/// Shapes of the periods that are still needed.
+class Periods {
+public:
+    explicit Periods(const Propagation& job) : job_(job), shapes_(job.period_start_s.size()) {}
+
+    [[nodiscard]] std::size_t at(double time_s) const noexcept {
+        std::size_t p = first_;
+        while (p + 1 < shapes_.size() && job_.period_start_s[p + 1] <= time_s) ++p;
+        return p;
+    }
+    [[nodiscard]] double end_s(std::size_t period) const noexcept {
+        return period + 1 < shapes_.size() ? job_.period_start_s[period + 1] : kNever;
+    }
+    const FireShapes& shapes(std::size_t period) {
+        while (made_ <= period) {
+            shapes_[made_] = job_.shapes(made_);
+            ++made_;
+        }
+        return shapes_[period];
+    }
+    /// Nothing before this time will be asked for again.
+    void forget_before(double time_s) {
+        for (; first_ + 1 < shapes_.size() && job_.period_start_s[first_ + 1] <= time_s; ++first_) {
+            shapes(first_);
+            FireShapes().swap(shapes_[first_]);
+        }
+    }
+
+private:
+    const Propagation& job_;
+    std::vector<FireShapes> shapes_;
+    std::size_t first_ = 0, made_ = 0;
+};
+
+/// The work on one fire.
+class Front {
+public:
+    explicit Front(const Propagation& job)
+        : job_(job),
+          grid_(job.grid),
+          periods_(job),
+          time_s_(grid_.size(), kNever),
+          slowness_(grid_.size()),
+          burnt_(grid_.size(), 0) {}
+
+    Arrival run() {
+        for (const auto& seed : job_.seeds) light(seed);
+        std::size_t taken = 0;
+        while (!queue_.empty()) {
+            const auto [time_s, cell] = queue_.top();
+            queue_.pop();
+            if (time_s > time_s_[cell] || burnt_[cell] != 0) continue;
+            if (time_s > job_.end_s) break;
+            burnt_[cell] = 1;
+            if (++taken % 4096 == 0 && job_.on_progress) job_.on_progress(time_s);
+            spread_from(cell);
+        }
+        return result();
+    }
+
+private:
+    struct Entry {
+        double time_s;
+        std::uint32_t cell;
+        bool operator>(const Entry& other) const noexcept {
+            return time_s != other.time_s ? time_s > other.time_s : cell > other.cell;
+        }
+    };
+
+    /// Sets a cell on fire at the end of a ray with a displacement when that is earlier than what is known. `ray_s` is the time of
+    /// the whole ray under the shapes of a period; what is left of it when the weather changes is done under the next.
+    template <class RayTime>
+    void offer(std::size_t cell, double start_s, double x_m, double y_m, const RayTime& ray_s) {
+        constexpr double kWorth_s = 1e-3;  ///< a burnt cell is not taken up again for less
+        std::size_t period = periods_.at(start_s);
+        double left = 1.0, now_s = start_s;
+        for (;; ++period) {
+            const double whole_s = ray_s(periods_.shapes(period)), end_s = periods_.end_s(period);
+            if (now_s + left * whole_s <= end_s) {
+                now_s += left * whole_s;
+                break;
+            }
+            if (whole_s < kNever) left -= std::max(0.0, end_s - now_s) / whole_s;
+            now_s = end_s;
+            if (now_s > job_.end_s) return;
+        }
+        if (!(now_s < time_s_[cell] - (burnt_[cell] != 0 ? kWorth_s : 0.0))) return;
+        time_s_[cell] = now_s;
+        slowness_[cell] = slowness(periods_.shapes(period)[cell], x_m, y_m);
+        burnt_[cell] = 0;
+        queue_.push({now_s, static_cast<std::uint32_t>(cell)});
+    }
+
+    /// Straight rays to the cells around a seed.
+    void light(const Seed& seed) {
+        constexpr int kRadius = 4;
+        const int col = static_cast<int>(std::floor(seed.col)), row = static_cast<int>(std::floor(seed.row));
+        for (int r = row - kRadius; r <= row + kRadius; ++r)
+            for (int c = col - kRadius; c <= col + kRadius; ++c) {
+                const double dx = c + 0.5 - seed.col, dy = r + 0.5 - seed.row;
+                if (!grid_.contains(r, c) || std::hypot(dx, dy) > kRadius) continue;
+                // A seed in the very centre has no direction; any will do.
+                const double x_m = dx * grid_.cell_m, y_m = -dy * grid_.cell_m;
+                offer(grid_.index(r, c), seed.time_s, x_m == 0.0 && y_m == 0.0 ? 1e-3 : x_m, y_m,
+                      [&](const FireShapes& shapes) { return ray_from_s(seed, shapes, dx, dy); });
+            }
+    }
+
+    /// Mean time of the cells on a ray from a seed, sampled.
+    [[nodiscard]] double ray_from_s(const Seed& seed, const FireShapes& shapes, double dx, double dy) const noexcept {
+        const int samples = 1 + static_cast<int>(std::ceil(4.0 * std::hypot(dx, dy)));
+        double sum_s = 0.0;
+        for (int i = 0; i < samples; ++i) {
+            const double along = (i + 0.5) / samples;
+            const int row = static_cast<int>(std::floor(seed.row + along * dy)),
+                      col = static_cast<int>(std::floor(seed.col + along * dx));
+            if (!grid_.contains(row, col)) return kNever;
+            sum_s += shapes[grid_.index(row, col)].time_s(dx * grid_.cell_m, -dy * grid_.cell_m);
+        }
+        return sum_s / samples;
+    }
+
+    /// Mean time of the cells on the ray from a neighbour to a cell; infinite when it cannot pass.
+    [[nodiscard]] double ray_s(const FireShapes& shapes, int row, int col, std::size_t direction) const noexcept {
+        const Move& move = ring_[direction];
+        const double x_m = -move.from.col * grid_.cell_m, y_m = move.from.row * grid_.cell_m;
+        const auto at = [&](Offset o) -> const FireShape& { return shapes[grid_.index(row + o.row, col + o.col)]; };
+        if (move.corner && !at(move.beside[0]).burns() && !at(move.beside[1]).burns()) return kNever;
+        double sum_s = 0.0;
+        for (int i = 0; i < move.pieces; ++i) {
+            const auto& piece = move.piece[static_cast<std::size_t>(i)];
+            sum_s += piece.share * at(piece.cell).time_s(x_m, y_m);
+        }
+        return sum_s;
+    }
+
+    /// Offers arrival over the ray from a burnt cell, and from between it and the burnt neighbours of it on the ring.
+    void spread_from(std::size_t from) {
+        const int from_row = static_cast<int>(from / static_cast<std::size_t>(grid_.cols)),
+                  from_col = static_cast<int>(from % static_cast<std::size_t>(grid_.cols));
+        periods_.forget_before(time_s_[from]);
+        for (std::size_t d = 0; d < kDirections; ++d) {
+            const Offset o = ring_[d].from;
+            const int row = from_row - o.row, col = from_col - o.col;
+            if (!grid_.contains(row, col)) continue;
+            const std::size_t cell = grid_.index(row, col);
+            reach(cell, row, col, d, from);
+        }
+    }
+
+    void reach(std::size_t cell, int row, int col, std::size_t direction, std::size_t from) {
+        const auto& shapes = periods_.shapes(periods_.at(time_s_[from]));
+        const Offset o = ring_[direction].from;
+        const double x_m = -o.col * grid_.cell_m, y_m = o.row * grid_.cell_m;
+        const double own_ray_s = ray_s(shapes, row, col, direction);
+        offer(cell, time_s_[from], x_m, y_m,
+              [&](const FireShapes& then) { return &then == &shapes ? own_ray_s : ray_s(then, row, col, direction); });
+        if (!(own_ray_s < kNever)) return;
+        for (const std::size_t side : {(direction + 1) % kDirections, (direction + kDirections - 1) % kDirections}) {
+            const Offset other = ring_[side].from;
+            if (!grid_.contains(row + other.row, col + other.col)) continue;
+            const std::size_t beside = grid_.index(row + other.row, col + other.col);
+            if (burnt_[beside] != 0) reach_between(shapes[cell], {row, col, direction, side, from, beside});
+        }
+    }
+
+    /// Two burnt neighbours of a cell, next to each other on the ring.
+    struct Pair {
+        int row, col;
+        std::size_t direction, side, from, beside;
+    };
+
+    /// The ray to a cell from the best point between two burnt neighbours: the least of t0 + step s + sqrt(a s2 + 2 b s + c) - w v(s).
+    void reach_between(const FireShape& shape, const Pair& pair) {
+        const Offset one = ring_[pair.direction].from, other = ring_[pair.side].from;
+        const double x_m = -one.col * grid_.cell_m, y_m = one.row * grid_.cell_m;
+        const double dx = -other.col * grid_.cell_m - x_m, dy = other.row * grid_.cell_m - y_m;
+        const double start = time_s_[pair.from], step = time_s_[pair.beside] - start;
+        const double a = shape.m_xx * dx * dx + 2.0 * shape.m_xy * dx * dy + shape.m_yy * dy * dy;
+        const double b = (shape.m_xx * dx + shape.m_xy * dy) * x_m + (shape.m_xy * dx + shape.m_yy * dy) * y_m;
+        const double c = shape.m_xx * x_m * x_m + 2.0 * shape.m_xy * x_m * y_m + shape.m_yy * y_m * y_m;
+        const double d = step - shape.w_x * dx - shape.w_y * dy;
+        if (!(d * d < a)) return;
+        const double share = -d * std::sqrt(std::max(0.0, a * c - b * b)) / (a * std::sqrt(a - d * d)) - b / a;
+        if (!(share > 0.0 && share < 1.0)) return;
+        const double ray_x = x_m + share * dx, ray_y = y_m + share * dy;
+        const std::size_t cell = grid_.index(pair.row, pair.col);
+        offer(cell, start + share * step + bend_s(pair, -dx, -dy, step, share), ray_x, ray_y, [&](const FireShapes& then) {
+            const FireShape& own = then[cell];
+            const double t = std::lerp(ray_s(then, pair.row, pair.col, pair.direction) / own.time_s(x_m, y_m),
+                                       ray_s(then, pair.row, pair.col, pair.side) / own.time_s(x_m + dx, y_m + dy), share) *
+                             own.time_s(ray_x, ray_y);
+            return std::isnan(t) ? kNever : t;
+        });
+    }
+
+    /// What a cubic through both times with both slownesses adds to the straight line between two cells, limited.
+    [[nodiscard]] double bend_s(const Pair& pair, double x_m, double y_m, double step, double share) const noexcept {
+        const Slowness &p = slowness_[pair.from], &q = slowness_[pair.beside];
+        const double first = p.x * x_m + p.y * y_m - step, second = q.x * x_m + q.y * y_m - step;
+        if (first * second >= 0.0) return 0.0;  // no arc: the slownesses do not belong to one front
+        constexpr double kLimit = 2.0;          // of the weaker end's curvature, which keeps thin ellipses stable
+        const double cubic = std::abs(first) * (1.0 - share) + std::abs(second) * share;
+        return std::copysign(share * (1.0 - share) * std::min(cubic, kLimit * std::min(std::abs(first), std::abs(second))),
+                             first);
+    }
+
+    Arrival result() {
+        Arrival out{Raster<float>(grid_, "arrival_time", "s", std::numeric_limits<float>::quiet_NaN()),
+                    std::move(slowness_)};
+        for (std::size_t i = 0; i < time_s_.size(); ++i)
+            if (time_s_[i] <= job_.end_s) out.time_s.values[i] = static_cast<float>(time_s_[i]);
+        return out;
+    }
+
+    const Propagation& job_;
+    const MapGrid& grid_;
+    const std::array<Move, kDirections>& ring_ = ring();
+    Periods periods_;
+    std::vector<double> time_s_;
+    std::vector<Slowness> slowness_;
+    std::vector<std::uint8_t> burnt_;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+}  // namespace
+
+Arrival propagate(const Propagation& job) {
+    if (job.period_start_s.empty()) throw input_error("spread", "no weather is given");
+    return Front(job).run();
+}
+
+}  // namespace pyroscene::spread
