@@ -47,6 +47,8 @@ ImageStream::ImageStream(const std::filesystem::path& path) : impl_(std::make_un
     s.info.metadata = default_metadata(*s.dataset);
     std::array<double, 6> transform{};
     s.info.on_map = s.dataset->GetSpatialRef() != nullptr && s.dataset->GetGeoTransform(transform.data()) == CE_None;
+    if (const char* file = s.dataset->GetMetadataItem("X_DATASET", "GEOLOCATION"); file != nullptr)
+        s.info.geolocation = file;
     for (int b = 1; b <= s.dataset->GetRasterCount(); ++b) {
         GDALRasterBand& band = *s.dataset->GetRasterBand(b);
         s.info.bands.push_back(describe_band(band));

@@ -17,6 +17,7 @@ struct ImageInfo {
     std::vector<OutputBand> bands;
     std::map<std::string, std::string> metadata;  ///< default domain
     bool on_map = false;                          ///< has a CRS and an affine transform
+    std::string geolocation;                      ///< file of its geolocation arrays; empty = none
 };
 
 /// Reads any raster that GDAL knows a few lines at a time: memory does not grow with the image. Not for several threads at

@@ -131,6 +131,18 @@ Background background_around(std::span<const float> plane, std::span<const unsig
     return {};
 }
 
+Background background_of_all(std::span<const float> plane, std::span<const unsigned char> fire) noexcept {
+    Background all;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+        if (fire[i] != 0 || !std::isfinite(plane[i])) continue;
+        sum += static_cast<double>(plane[i]);
+        ++all.pixels;
+    }
+    if (all.pixels > 0) all.mean = sum / all.pixels;
+    return all;
+}
+
 std::vector<unsigned char> fire_pixels(std::span<const float> T_K, int samples, int lines, double least_K) {
     std::vector<unsigned char> candidate(T_K.size(), 0), fire(T_K.size(), 0);
     for (std::size_t i = 0; i < T_K.size(); ++i) candidate[i] = static_cast<double>(T_K[i]) > kCertain_K ? 1 : 0;

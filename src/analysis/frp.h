@@ -57,6 +57,9 @@ struct Background {
 Background background_around(std::span<const float> plane, std::span<const unsigned char> fire, int samples, int lines,
                              int sample, int line) noexcept;
 
+/// Mean of all valid pixels that are no fire: for pixels inside fires too large for any window.
+Background background_of_all(std::span<const float> plane, std::span<const unsigned char> fire) noexcept;
+
 /// Fire pixels by contrast in the MIR: brightness temperature above `least_K`, and above the mean of the surroundings by 6 K and by
 /// 3.5 mean absolute deviations; or above 360 K. Two passes: what the first finds is no background in the second.
 std::vector<unsigned char> fire_pixels(std::span<const float> brightness_temperature_K, int samples, int lines,

@@ -14,6 +14,7 @@
 #include "cli/atmosphere_commands.h"
 #include "cli/calc.h"
 #include "cli/compare_command.h"
+#include "cli/detect_command.h"
 #include "cli/export_command.h"
 #include "cli/fit_scar_command.h"
 #include "cli/frp_command.h"
@@ -304,6 +305,7 @@ int main(int argc, char** argv) {
     std::string command_line;
     cli::add_atmosphere_commands(app, a.quiet, command_line);
     cli::add_picture_commands(app, a.quiet);
+    cli::add_detection_commands(app, a.quiet, interrupted);
     for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);

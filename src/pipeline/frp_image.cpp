@@ -10,93 +10,22 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "gis/image_stream.h"
 #include "gis/pixel_positions.h"
+#include "pipeline/hotspots.h"
+#include "pipeline/image_channels.h"
 #include "radiometry/planck.h"
-#include "sensors/sensor.h"
 
 namespace pyroscene::pipeline {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr BandWish kMir{3.96, 3.0, 5.0, "MIR radiance"}, kThermal{11.0, 7.5, 14.5, "thermal radiance"};
 
-/// One band of the image, ready to compute with.
-struct Channel {
-    int number = 0;  ///< from 1
-    std::string name;
-    Spectrum response;
-    std::vector<float> radiance;  ///< at the ground: path taken off, divided by the transmittance
-
-    [[nodiscard]] double black_body(double T_K) const { return radiometry::band_mean_radiance(T_K, response); }
-};
-
-Spectrum response_of(const FrpJob& job, const gis::ImageInfo& info, const gis::OutputBand& band) {
-    const auto entry = [](const auto& map, const char* key) { return map.contains(key) ? map.at(key) : std::string(); };
-    const std::string sensor = job.sensor ? *job.sensor : entry(info.metadata, "SENSOR"),
-                      id = entry(band.metadata, "band_id");
-    if (!sensor.empty()) {
-        const auto loaded = sensors::load_sensor(sensor);
-        int index = id.empty() ? -1 : loaded.band_index(id);
-        for (std::size_t b = 0; index < 0 && b < loaded.bands.size(); ++b)
-            if (std::abs(loaded.bands[b].centre_um - *band.wavelength_um) < 0.25 * loaded.bands[b].fwhm_um)
-                index = static_cast<int>(b);
-        if (index < 0)
-            throw input_error(job.image.string(),
-                              fmt::format("sensor {} has no band at {} um", sensor, *band.wavelength_um));
-        return loaded.bands[static_cast<std::size_t>(index)].response;
-    }
-    const double half_um = 0.5 * band.fwhm_um.value_or(0.02 * *band.wavelength_um);
-    return {Quantity::Response, {*band.wavelength_um - half_um, *band.wavelength_um + half_um}, {1.0, 1.0}};
-}
-
-int band_near(const FrpJob& job, const gis::ImageInfo& info, std::optional<int> wanted, double best_um, double lowest_um,
-              double highest_um, const char* what) {
-    if (wanted) {
-        if (*wanted < 1 || *wanted > static_cast<int>(info.bands.size()))
-            throw input_error(job.image.string(), fmt::format("no band {}; it has {}", *wanted, info.bands.size()));
-        if (!info.bands[static_cast<std::size_t>(*wanted) - 1].wavelength_um)
-            throw input_error(job.image.string(), fmt::format("band {} has no wavelength", *wanted));
-        return *wanted;
-    }
-    int found = 0;
-    double nearest_um = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < info.bands.size(); ++b) {
-        const auto um = info.bands[b].wavelength_um;
-        if (!um || *um < lowest_um || *um > highest_um || std::abs(*um - best_um) >= nearest_um) continue;
-        nearest_um = std::abs(*um - best_um);
-        found = static_cast<int>(b) + 1;
-    }
-    if (found == 0)
-        throw input_error(job.image.string(),
-                          fmt::format("no band between {} and {} um for the {} radiance", lowest_um, highest_um, what));
-    return found;
-}
-
-void require_radiance(const FrpJob& job, const gis::OutputBand& band, int number) {
-    const bool radiance = band.unit.empty() || band.unit.find("sr") != std::string::npos;
-    if (!radiance)
-        throw input_error(
-            job.image.string(),
-            fmt::format("band {} is in '{}', expected a spectral radiance (W m-2 sr-1 um-1)", number, band.unit));
-}
-
-Channel read_channel(gis::ImageStream& image, const FrpJob& job, int number, double transmittance, double path) {
-    const gis::ImageInfo& info = image.info();
-    const auto& band = info.bands[static_cast<std::size_t>(number) - 1];
-    require_radiance(job, band, number);
-    Channel c{number, band.description.empty() ? fmt::format("band {}", number) : band.description,
-              response_of(job, info, band), image.read_band(number)};
-    for (float& L : c.radiance) L = static_cast<float>((static_cast<double>(L) - path) / transmittance);
+/// A band with what lies between ground and sensor taken off.
+Channel at_ground(ImageChannels& image, int number, double transmittance, double path) {
+    Channel c = image.read(number);
+    for (float& L : c.values) L = static_cast<float>((static_cast<double>(L) - path) / transmittance);
     return c;
-}
-
-double fitted_coefficient(const Channel& mir) {
-    std::vector<double> T_K, L;
-    for (double T = 650.0; T <= 1350.0; T += 25.0) {
-        T_K.push_back(T);
-        L.push_back(mir.black_body(T));
-    }
-    return analysis::power_law_coefficient(T_K, L);
 }
 
 /// The planes of the result, [line][sample], NaN where there is no fire.
@@ -118,26 +47,13 @@ struct Scene {
     const std::vector<float>& mir_K;
 };
 
-/// Mean of everything that is no fire: the background of pixels inside fires too large for any window.
-analysis::Background scene_background(const std::vector<float>& plane, const std::vector<unsigned char>& fire) {
-    analysis::Background all;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < plane.size(); ++i) {
-        if (fire[i] != 0 || !std::isfinite(plane[i])) continue;
-        sum += static_cast<double>(plane[i]);
-        ++all.pixels;
-    }
-    if (all.pixels > 0) all.mean = sum / all.pixels;
-    return all;
-}
-
 /// The pixels' powers; returns how many have no solution.
 std::int64_t compute(const Scene& s, const Channel& mir, const Channel* tir, double a, Planes& out) {
     std::int64_t unsolved = 0;
     std::optional<radiometry::BandThermometer> tir_thermometer;
     if (tir != nullptr) tir_thermometer.emplace(tir->response);
-    const auto far_mir = scene_background(mir.radiance, s.fire);
-    const auto far_tir = tir != nullptr ? scene_background(tir->radiance, s.fire) : analysis::Background{};
+    const auto far_mir = analysis::background_of_all(mir.values, s.fire);
+    const auto far_tir = tir != nullptr ? analysis::background_of_all(tir->values, s.fire) : analysis::Background{};
     for (std::size_t i = 0; i < s.fire.size(); ++i) {
         if (s.fire[i] == 0) continue;
         if (s.job.cancelled != nullptr && s.job.cancelled->load()) throw Cancelled();
@@ -147,17 +63,17 @@ std::int64_t compute(const Scene& s, const Channel& mir, const Channel* tir, dou
             const auto near = analysis::background_around(plane, s.fire, s.where.samples, s.where.lines, sample, line);
             return near.pixels > 0 ? near : far;
         };
-        const auto background = around(mir.radiance, far_mir);
+        const auto background = around(mir.values, far_mir);
         if (background.pixels == 0 && s.job.subtract_background) {
             ++unsolved;
             continue;
         }
-        const double area_m2 = static_cast<double>(s.where.area_m2[i]), radiance = static_cast<double>(mir.radiance[i]);
+        const double area_m2 = static_cast<double>(s.where.area_m2[i]), radiance = static_cast<double>(mir.values[i]);
         double frp = analysis::frp_mir_W_m2(radiance, s.job.subtract_background ? background.mean : 0.0, a, 1.0);
         if (tir != nullptr) {
-            const auto tir_background = around(tir->radiance, far_tir);
+            const auto tir_background = around(tir->values, far_tir);
             const analysis::BispectralInput in{radiance,
-                                               static_cast<double>(tir->radiance[i]),
+                                               static_cast<double>(tir->values[i]),
                                                background.mean,
                                                tir_background.mean,
                                                tir_thermometer->temperature_K(tir_background.mean),
@@ -247,51 +163,40 @@ std::filesystem::path beside(const FrpJob& job, const char* ending) {
 
 void write_tables(const Scene& s, const gis::ImageInfo& info, const Planes& planes, const std::vector<float>* tir_K,
                   const std::vector<FireCluster>& fires) {
-    const auto entry = [&](const char* key) { return info.metadata.contains(key) ? info.metadata.at(key) : std::string(); };
-    const std::string time = entry("ACQUISITION_DATE"), sensor = entry("SENSOR");
-    const std::string date = time.size() >= 16 ? time.substr(0, 10) : "",
-                      clock = time.size() >= 16 ? time.substr(11, 2) + time.substr(14, 2) : "";
-    std::string text =
-        "latitude,longitude,brightness,scan,track,acq_date,acq_time,satellite,instrument,confidence,version,bright_t31,frp,"
-        "daynight\n";
+    HotspotTable table;
+    const auto when = date_and_clock(metadata_item(info, "ACQUISITION_DATE"));
+    table.date = when.date;
+    table.clock = when.clock;
+    table.satellite = table.instrument = metadata_item(info, "SENSOR");
+    table.version = info.metadata.contains("synthetic") ? "synthetic" : "";
     for (std::size_t i = 0; i < s.fire.size(); ++i) {
         if (s.fire[i] == 0 || !std::isfinite(planes.frp_MW[i])) continue;
-        text += fmt::format("{:.5f},{:.5f},{:.2f},{:.4g},{:.4g},{},{},{},{},,{},{},{:.6g},\n", s.where.lat_deg[i],
-                            s.where.lon_deg[i], s.mir_K[i], static_cast<double>(s.where.width_m[i]) * 1e-3,
-                            static_cast<double>(s.where.height_m[i]) * 1e-3, date, clock, sensor, sensor,
-                            info.metadata.contains("synthetic") ? "synthetic" : "",
-                            tir_K != nullptr ? fmt::format("{:.2f}", (*tir_K)[i]) : std::string(), planes.frp_MW[i]);
+        Hotspot h{s.where.lat_deg[i], s.where.lon_deg[i], static_cast<double>(s.mir_K[i])};
+        if (tir_K != nullptr) h.tir_K = static_cast<double>((*tir_K)[i]);
+        h.scan_km = static_cast<double>(s.where.width_m[i]) * 1e-3;
+        h.track_km = static_cast<double>(s.where.height_m[i]) * 1e-3;
+        h.frp_MW = static_cast<double>(planes.frp_MW[i]);
+        table.rows.push_back(h);
     }
-    write_text_file(beside(s.job, "_pixels.csv"), text);
-    text = "fire,longitude,latitude,pixels,area_ha,frp_MW\n";
+    write_hotspots_csv(beside(s.job, "_pixels.csv"), table);
+    std::string text = "fire,longitude,latitude,pixels,area_ha,frp_MW\n";
     for (std::size_t f = 0; f < fires.size(); ++f)
         text += fmt::format("{},{:.6f},{:.6f},{},{:.6g},{:.6g}\n", f + 1, fires[f].lon_deg, fires[f].lat_deg,
                             fires[f].pixels, fires[f].area_ha, fires[f].frp_MW);
     write_text_file(beside(s.job, "_fires.csv"), text);
 }
 
-std::vector<float> temperatures(const Channel& channel) {
-    const radiometry::BandThermometer thermometer(channel.response);
-    std::vector<float> T_K;
-    for (const float L : channel.radiance)
-        T_K.push_back(static_cast<float>(thermometer.temperature_K(static_cast<double>(L))));
-    return T_K;
-}
-
 }  // namespace
 
 FrpReport frp_image(const FrpJob& job) {
-    gis::ImageStream image(job.image);
+    ImageChannels image(job.image, job.sensor);
     const gis::ImageInfo& info = image.info();
-    const int mir_number = band_near(job, info, job.mir_band, 3.96, 3.0, 5.0, "MIR");
-    const Channel mir = read_channel(image, job, mir_number, job.mir_transmittance, job.mir_path);
+    const Channel mir = at_ground(image, image.require(job.mir_band, kMir), job.mir_transmittance, job.mir_path);
     std::optional<Channel> tir;
-    if (job.bispectral)
-        tir = read_channel(image, job, band_near(job, info, job.tir_band, 11.0, 7.5, 14.5, "thermal"), job.tir_transmittance,
-                           job.tir_path);
-    FrpReport report{mir.name, tir ? tir->name : "", job.coefficient.value_or(fitted_coefficient(mir)), 0, 0, 0.0, {}};
+    if (job.bispectral) tir = at_ground(image, image.require(job.tir_band, kThermal), job.tir_transmittance, job.tir_path);
+    FrpReport report{mir.name, tir ? tir->name : "", job.coefficient.value_or(mir.power_law_coefficient()), 0, 0, 0.0, {}};
     const auto where = gis::pixel_positions(job.image);
-    const auto mir_K = temperatures(mir);
+    const auto mir_K = mir.temperatures_K();
     const auto fire = analysis::fire_pixels(mir_K, info.cols, info.rows, job.least_temperature_K);
     const Scene scene{job, where, fire, mir_K};
     Planes planes(fire.size());
@@ -301,7 +206,7 @@ FrpReport frp_image(const FrpJob& job) {
     report.fires = clusters(scene, planes);
     write_raster(scene, info, planes);
     std::optional<std::vector<float>> tir_K;
-    if (tir) tir_K = temperatures(*tir);
+    if (tir) tir_K = tir->temperatures_K();
     write_tables(scene, info, planes, tir_K ? &*tir_K : nullptr, report.fires);
     return report;
 }

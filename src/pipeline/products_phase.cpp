@@ -12,7 +12,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "gis/raster_output.h"
-#include "gis/vector_output.h"
+#include "pipeline/fronts.h"
+#include "pipeline/incident_map.h"
 #include "pipeline/quicklook.h"
 #include "pipeline/stac.h"
 #include "pipeline/state_file.h"
@@ -218,18 +219,17 @@ void write_fire_pixels(const ProductJob& job, const Rendered& r, const Product& 
     write_text_file(job.files.folder / ("fire_pixels" + job.files.suffix + ".geojson"), collection.dump() + "\n");
 }
 
-void write_perimeter(const ProductJob& job, const std::filesystem::path& output) {
+/// The model's fire at the frame of the acquisition, as vectors.
+void write_vectors(const ProductJob& job, const std::filesystem::path& output) {
     const auto frame = frame_at(job.inputs.frames, job.acquisition.time_s, job.acquisition.id);
-    const auto state = read_state(state_path(output, job.inputs.frames[frame].time_s), job.inputs.grid, {});
-    Raster<std::uint8_t> burned(job.inputs.grid, "burned", "1");
-    for (std::size_t i = 0; i < burned.values.size(); ++i)
-        burned.values[i] = state.cell_class.values[i] == 1 || state.cell_class.values[i] == 2 ? 1 : 0;
-    gis::write_polygons(job.files.folder / ("perimeter" + job.files.suffix + ".geojson"), burned,
-                        {{"name", job.scenario.name},
-                         {"acquisition", job.acquisition.id},
-                         {"datetime", scenario::UtcTime{job.scenario.start.unix_s + state.time_s}.iso8601()},
-                         {"map_method", "Modeled"},
-                         {"synthetic", "true"}});
+    const auto path = state_path(output, job.inputs.frames[frame].time_s);
+    const auto state = read_state(path, job.inputs.grid, {});
+    constexpr double kHeat_K = 100.0;  ///< above ambient: what an interpreter would draw as heat
+    write_incident_map(
+        job.files.folder, job.files.suffix,
+        {job.scenario.name, job.acquisition.id, scenario::UtcTime{job.scenario.start.unix_s + state.time_s}.iso8601(),
+         job.scenario.fire.ambient_temperature_K + kHeat_K},
+        state, fronts_path(path));
 }
 
 void write_picture(const ProductJob& job, const Rendered& r, const Product& brightness) {
@@ -341,7 +341,7 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
     timer.emplace(report, "products/vectors");
     if (wanted.frp && r.truth) {
         write_fire_pixels(job, r, made.back());
-        write_perimeter(job, options.output);
+        write_vectors(job, options.output);
     }
     MapGrid grid = job.inputs.grid;
     if (wanted.ortho) {

@@ -23,12 +23,32 @@ Raster<std::uint8_t> ring() {
     return mask;
 }
 
-TEST(WritePolygons, OutlinesConnectedCellsInLongitudeAndLatitude) {
-    const TempFolder folder;
-    write_polygons(folder / "perimeter.geojson", ring(), {{"synthetic", "true"}});
-    EXPECT_EQ(folder.entries(), 1);
+/// The ring as a layer in its own CRS.
+VectorLayer ring_layer() {
+    VectorLayer layer;
+    layer.name = "perimeter";
+    layer.crs = ring().grid.crs_wkt;
+    layer.kind = GeometryKind::Polygon;
+    layer.fields = {
+        {"label", VectorField::Type::Text}, {"area_ha", VectorField::Type::Real}, {"count", VectorField::Type::Integer}};
+    for (auto& outline : outlines(ring()))
+        layer.features.push_back(
+            {std::move(outline.rings), {std::string("burnt"), outline.area_m2 * 1e-4, std::int64_t{7}}});
+    layer.style = "PEN(c:#FF0000,w:3px)";
+    return layer;
+}
+
+std::unique_ptr<GDALDataset> open_vector(const std::filesystem::path& path) {
     GDALAllRegister();
-    const std::unique_ptr<GDALDataset> file(GDALDataset::Open((folder / "perimeter.geojson").c_str(), GDAL_OF_VECTOR));
+    return std::unique_ptr<GDALDataset>(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR));
+}
+
+TEST(WriteVector, OutlinesConnectedCellsInLongitudeAndLatitude) {
+    const TempFolder folder;
+    const auto layer_out = ring_layer();
+    write_vector(folder / "perimeter.geojson", {&layer_out, 1});
+    EXPECT_EQ(folder.entries(), 1);
+    const auto file = open_vector(folder / "perimeter.geojson");
     ASSERT_TRUE(file);
     OGRLayer* layer = file->GetLayer(0);
     ASSERT_EQ(layer->GetFeatureCount(), 2);
@@ -36,7 +56,8 @@ TEST(WritePolygons, OutlinesConnectedCellsInLongitudeAndLatitude) {
     double areas_ha = 0.0;
     int holes = 0;
     for (const auto& feature : *layer) {
-        EXPECT_STREQ(feature->GetFieldAsString("synthetic"), "true");
+        EXPECT_STREQ(feature->GetFieldAsString("label"), "burnt");
+        EXPECT_EQ(feature->GetFieldAsInteger("count"), 7);
         areas_ha += feature->GetFieldAsDouble("area_ha");
         const OGRPolygon* polygon = feature->GetGeometryRef()->toPolygon();
         holes += polygon->getNumInteriorRings();
@@ -51,23 +72,71 @@ TEST(WritePolygons, OutlinesConnectedCellsInLongitudeAndLatitude) {
     EXPECT_NEAR(areas_ha, 9 * 0.09, 1e-9);
 }
 
-TEST(WritePolygons, NothingBurnedIsAnEmptyCollection) {
+TEST(WriteVector, GeoPackageKeepsTheMapAndKmzHoldsEveryLayer) {
     const TempFolder folder;
-    Raster<std::uint8_t> mask = ring();
-    mask.values.assign(mask.values.size(), 0);
-    write_polygons(folder / "perimeter.geojson", mask, {});
-    EXPECT_NE(read_text_file(folder / "perimeter.geojson").find("FeatureCollection"), std::string::npos);
+    VectorLayer points;
+    points.name = "spots";
+    points.crs = ring().grid.crs_wkt;
+    points.fields = {{"ground_K", VectorField::Type::Real}};
+    points.features = {{{{{500045.0, 5169955.0}}}, {512.5}}, {{{{500105.0, 5169955.0}}}, {std::monostate{}}}};
+    points.style = "SYMBOL(id:\"http://example.org/circle.png\",c:#FFD000)";
+    VectorLayer lines = points;
+    lines.style = "PEN(c:#FF0000,w:3px)";
+    lines.name = "front";
+    lines.kind = GeometryKind::Line;
+    lines.features = {
+        {{{{500000.0, 5170000.0}, {500030.0, 5169960.0}}, {{500090.0, 5170000.0}, {500090.0, 5169900.0}}}, {1.0}}};
+    const std::vector<VectorLayer> layers{ring_layer(), lines, points};
+    write_vector(folder / "map.gpkg", layers);
+    write_vector(folder / "map.kmz", layers);
+    EXPECT_EQ(folder.entries(), 2);
+    for (const char* name : {"map.gpkg", "map.kmz"}) {
+        const auto file = open_vector(folder / name);
+        ASSERT_TRUE(file) << name;
+        ASSERT_EQ(file->GetLayerCount(), 3) << name;
+        EXPECT_EQ(file->GetLayerByName("perimeter")->GetFeatureCount(), 2) << name;
+        EXPECT_EQ(file->GetLayerByName("spots")->GetFeatureCount(), 2) << name;
+    }
+    const auto package = open_vector(folder / "map.gpkg");
+    OGRLayer* front = package->GetLayerByName("front");
+    EXPECT_TRUE(front->GetSpatialRef()->IsProjected());
+    const std::unique_ptr<OGRFeature> feature(front->GetNextFeature());
+    EXPECT_NEAR(feature->GetGeometryRef()->toMultiLineString()->get_Length(), 50.0 + 100.0, 1e-9);
+    OGRLayer* spots = package->GetLayerByName("spots");
+    const std::unique_ptr<OGRFeature> hot(spots->GetNextFeature()), unknown(spots->GetNextFeature());
+    EXPECT_DOUBLE_EQ(hot->GetFieldAsDouble("ground_K"), 512.5);
+    EXPECT_FALSE(unknown->IsFieldSetAndNotNull(unknown->GetFieldIndex("ground_K")));
+    const auto google = open_vector(folder / "map.kmz");
+    const std::unique_ptr<OGRFeature> spot(google->GetLayerByName("spots")->GetNextFeature());
+    const auto [x, y] = MapProjection("EPSG:32611")
+                            .to_map(spot->GetGeometryRef()->toPoint()->getY(), spot->GetGeometryRef()->toPoint()->getX());
+    EXPECT_NEAR(x, 500045.0, 0.05);
+    EXPECT_NEAR(y, 5169955.0, 0.05);
 }
 
-TEST(WritePolygons, NamesTheFileThatFailed) {
+TEST(WriteVector, NothingBurnedIsAnEmptyCollection) {
+    const TempFolder folder;
+    auto layer = ring_layer();
+    layer.features.clear();
+    write_vector(folder / "perimeter.geojson", {&layer, 1});
+    EXPECT_NE(read_text_file(folder / "perimeter.geojson").find("FeatureCollection"), std::string::npos);
+    Raster<std::uint8_t> mask = ring();
+    mask.values.assign(mask.values.size(), 0);
+    EXPECT_TRUE(outlines(mask).empty());
+}
+
+TEST(WriteVector, NamesTheFileThatFailed) {
     const TempFolder folder;
     write_text_file(folder / "file", "in the way");
-    try {
-        write_polygons(folder / "file/perimeter.geojson", ring(), {});
-        FAIL();
-    } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), ErrorKind::Runtime);
-        EXPECT_NE(std::string(e.what()).find("perimeter.geojson"), std::string::npos);
+    const auto layer = ring_layer();
+    for (const char* name : {"file/perimeter.geojson", "perimeter.shp"}) {
+        try {
+            write_vector(folder / name, {&layer, 1});
+            FAIL();
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Runtime);
+            EXPECT_NE(std::string(e.what()).find("perimeter."), std::string::npos);
+        }
     }
 }
 

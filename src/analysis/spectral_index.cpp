@@ -1,0 +1,206 @@
+#include "analysis/spectral_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pyroscene::analysis {
+namespace {
+
+using Kind = SpectralIndex::Kind;
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+// Tolerances take in the bands of the instruments for which an index was defined. Neutral potassium shines at 766.5 and
+// 769.9 nm: the band that holds it lies within 5 nm of 768 nm, its neighbours reach neither the line nor the next absorption.
+constexpr std::array<SpectralIndex, 8> kIndices{{
+    {"ndvi",
+     Kind::NormalisedDifference,
+     2,
+     {{{0.86, 0.06}, {0.65, 0.04}}},
+     0.0,
+     true,
+     false,
+     0.0,
+     "(R0.86 - R0.65) / (R0.86 + R0.65)",
+     "Rouse et al. 1974; thesis 3.2.1 (ii)"},
+    {"nbr",
+     Kind::NormalisedDifference,
+     2,
+     {{{0.86, 0.06}, {2.2, 0.15}}},
+     0.0,
+     true,
+     false,
+     0.0,
+     "(R0.86 - R2.2) / (R0.86 + R2.2)",
+     "Key and Benson 2006"},
+    {"hfdi",
+     Kind::NormalisedDifference,
+     2,
+     {{{2.429, 0.02}, {2.061, 0.02}}},
+     0.0,
+     false,
+     true,
+     0.02,
+     "(L2.429 - L2.061) / (L2.429 + L2.061)",
+     "Dennison and Roberts 2009"},
+    {"co2",
+     Kind::Absorption,
+     3,
+     {{{2.010, 0.006}, {1.990, 0.006}, {2.040, 0.006}}},
+     0.666,
+     false,
+     true,
+     0.02,
+     "L2.010 / (0.666 L1.990 + 0.334 L2.040)",
+     "Dennison 2006"},
+    {"k-line",
+     Kind::Contrast,
+     3,
+     {{{0.768, 0.0052}, {0.7515, 0.006}, {0.7815, 0.006}}},
+     0.0,
+     false,
+     true,
+     0.02,
+     "(L0.768 - C) / C, C between L0.752 and L0.782",
+     "Vodacek et al. 2002; continuum through both sides"},
+    {"akbd",
+     Kind::Difference,
+     2,
+     {{{0.769, 0.0052}, {0.780, 0.006}}},
+     0.0,
+     false,
+     true,
+     0.5,
+     "L0.769 - L0.780",
+     "Amici et al. 2011"},
+    {"aviris-k",
+     Kind::Ratio,
+     2,
+     {{{0.75912, 0.006}, {0.74957, 0.006}}},
+     0.0,
+     false,
+     true,
+     0.02,
+     "L0.75912 / L0.74957",
+     "thesis fig 3.1 (bands 44 and 43)"},
+    {"aviris-co2",
+     Kind::Difference,
+     2,
+     {{{1.95137, 0.006}, {1.91115, 0.006}}},
+     0.0,
+     false,
+     true,
+     0.5,
+     "L1.95137 - L1.91115",
+     "thesis fig 3.2 (bands 168 and 164)"},
+}};
+
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+constexpr std::array<SeverityClass, 7> kSeverity{{{"enhanced regrowth, high", -0.251},
+                                                  {"enhanced regrowth, low", -0.100},
+                                                  {"unburned", 0.100},
+                                                  {"low severity", 0.270},
+                                                  {"moderate-low severity", 0.440},
+                                                  {"moderate-high severity", 0.660},
+                                                  {"high severity", kNoEnd}}};
+
+double quotient(double above, double below) { return below > 0.0 ? above / below : std::nan(""); }
+
+double value_of(const SpectralIndex& x, const std::array<double, 3>& v, std::span<const double> um) {
+    switch (x.kind) {
+        case Kind::NormalisedDifference:
+            return quotient(v[0] - v[1], v[0] + v[1]);
+        case Kind::Ratio:
+            return quotient(v[0], v[1]);
+        case Kind::Difference:
+            return v[0] - v[1];
+        case Kind::Absorption:
+            return quotient(v[0], x.share * v[1] + (1.0 - x.share) * v[2]);
+        case Kind::Contrast: {
+            const double continuum = std::lerp(v[1], v[2], (um[0] - um[1]) / (um[2] - um[1]));
+            return quotient(v[0] - continuum, continuum);
+        }
+    }
+    return std::nan("");
+}
+
+double median_of(std::vector<float>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+std::span<const SpectralIndex> spectral_indices() noexcept { return kIndices; }
+
+const SpectralIndex* find_spectral_index(std::string_view name) noexcept {
+    const auto found = std::find_if(kIndices.begin(), kIndices.end(), [&](const auto& x) { return x.name == name; });
+    return found == kIndices.end() ? nullptr : &*found;
+}
+
+std::vector<float> spectral_index(const SpectralIndex& index, std::span<const std::span<const float>> planes,
+                                  std::span<const double> centre_um) {
+    std::vector<float> out(planes[0].size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        std::array<double, 3> v{};
+        for (std::size_t b = 0; b < static_cast<std::size_t>(index.bands); ++b) v[b] = static_cast<double>(planes[b][i]);
+        out[i] = static_cast<float>(value_of(index, v, centre_um));
+    }
+    return out;
+}
+
+RobustStatistics robust_statistics(std::span<const float> values) {
+    std::vector<float> valid;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(valid), [](float v) { return std::isfinite(v); });
+    if (valid.empty()) return {std::nan(""), std::nan("")};
+    const double median = median_of(valid);
+    for (float& v : valid) v = static_cast<float>(std::abs(static_cast<double>(v) - median));
+    constexpr double kNormal = 1.4826;  // standard deviation of a normal distribution / median distance
+    return {median, kNormal * median_of(valid)};
+}
+
+IndexDetection detect_by_index(std::span<const float> values, const SpectralIndex& index,
+                               const std::optional<double>& threshold, double deviations) {
+    IndexDetection out;
+    out.scene = robust_statistics(values);
+    out.threshold = threshold.value_or(out.scene.median + std::max(deviations * out.scene.deviation, index.least_excess));
+    out.result.fire.assign(values.size(), FireClass::Clear);
+    out.result.confidence_percent.assign(values.size(), kNaN);
+    out.result.background_mir_K.assign(values.size(), kNaN);
+    const double needed = out.threshold - out.scene.median;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double value = static_cast<double>(values[i]);
+        if (!std::isfinite(value)) {
+            out.result.fire[i] = FireClass::NotProcessed;
+            continue;
+        }
+        if (!(value > out.threshold)) continue;
+        const double times = needed > 0.0 ? (value - out.scene.median) / needed : 2.0;
+        out.result.fire[i] = times < 2.0 ? FireClass::Nominal : FireClass::High;
+        out.result.confidence_percent[i] = static_cast<float>(50.0 * std::clamp(times, 1.0, 2.0));
+    }
+    return out;
+}
+
+std::span<const SeverityClass> severity_classes() noexcept { return kSeverity; }
+
+std::vector<unsigned char> burn_severity(std::span<const float> dnbr) {
+    std::vector<unsigned char> out(dnbr.size(), 0);
+    for (std::size_t i = 0; i < dnbr.size(); ++i) {
+        if (!std::isfinite(dnbr[i])) continue;
+        const auto found = std::find_if(kSeverity.begin(), kSeverity.end(),
+                                        [&](const auto& c) { return static_cast<double>(dnbr[i]) < c.below; });
+        out[i] = static_cast<unsigned char>(found - kSeverity.begin() + 1);
+    }
+    return out;
+}
+
+std::vector<float> relative_dnbr(std::span<const float> dnbr, std::span<const float> nbr_before) {
+    std::vector<float> out(dnbr.size(), kNaN);
+    for (std::size_t i = 0; i < dnbr.size(); ++i)
+        if (std::abs(nbr_before[i]) >= 1e-3F) out[i] = dnbr[i] / std::sqrt(std::abs(nbr_before[i]));
+    return out;
+}
+
+}  // namespace pyroscene::analysis
