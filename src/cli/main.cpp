@@ -41,14 +41,14 @@ extern "C" void on_interrupt(int) {
 struct Arguments {
     std::string scenario, output;
     std::vector<std::string> acquisitions, calc_name;
-    std::string sensor;
+    cli::SensorsOptions sensors;
     cli::FitScarOptions fit_scar;
     cli::UnmixOptions unmix;
     cli::FrpOptions frp;
     cli::CompareOptions compare;
     cli::ExportOptions flame_export;
     int threads = 0;
-    bool force = false, quiet = false, json = false, print_schema = false;
+    bool force = false, quiet = false, print_schema = false;
     int verbose = 0;
 };
 
@@ -118,10 +118,7 @@ int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line)
     else if (app.got_subcommand("check"))
         return run_check(a);
     else if (app.got_subcommand("sensors")) {
-        if (a.sensor.empty())
-            cli::list_sensors(a.json);
-        else
-            cli::show_sensor(a.sensor, a.json);
+        cli::sensors_command(a.sensors);
     } else if (app.got_subcommand("export")) {
         auto options = a.flame_export;
         options.quiet = a.quiet;
@@ -294,8 +291,11 @@ int main(int argc, char** argv) {
     add_frp(app, a.frp);
     add_compare(app, a.compare);
     auto* sensor = app.add_subcommand("sensors", "list the sensors, or show one in full");
-    sensor->add_option("ID", a.sensor, "sensor id, or the path of a sensor file");
-    sensor->add_flag("--json", a.json, "machine-readable output");
+    sensor->add_option("ID", a.sensors.id, "sensor id, or the path of a sensor file");
+    sensor->add_flag("--json", a.sensors.json, "machine-readable output");
+    sensor->add_option("--plot", a.sensors.plot, "picture (PNG) of its spectral responses");
+    sensor->add_option("--footprint", a.sensors.footprint, "outlines of a scenario's images and some pixels as GeoJSON");
+    sensor->add_option("-o,--output", a.sensors.output, "file for --footprint (default: standard output)");
     sensor->footer("Example: pyroscene sensors wasp");
     auto* calc = app.add_subcommand("calc", "one formula or table look-up; with --csv, every row of a table");
     calc->add_option("NAME", a.calc_name, "what to compute, and its options");

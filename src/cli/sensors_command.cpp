@@ -1,10 +1,15 @@
 #include "cli/sensors_command.h"
 
 #include <iostream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "base/files.h"
+#include "pipeline/footprints.h"
+#include "pipeline/line_plot.h"
 #include "pipeline/sensor_json.h"
+#include "scenario/scenario.h"
 #include "sensors/detector.h"
 #include "sensors/sensor.h"
 
@@ -25,8 +30,6 @@ std::string noise_text(const sensors::Band& band) {
     }
     return "-";
 }
-
-}  // namespace
 
 void list_sensors(bool json) {
     std::string out;
@@ -70,6 +73,52 @@ void show_sensor(const std::string& id_or_path, bool json) {
     for (const auto& [path, code] : s.confidence) out += fmt::format("    {:<44} {}\n", path, code);
     for (const auto& [key, text] : s.sources) out += fmt::format("  source {}: {}\n", key, text);
     std::cout << out;
+}
+
+/// Reflective and thermal bands each in a diagram, as far as there are any.
+void plot_responses(const std::string& id_or_path, const std::filesystem::path& file) {
+    constexpr double kThermal_um = 3.0;
+    constexpr std::size_t kMostInLegend = 8;
+    const auto s = sensors::load_sensor(id_or_path);
+    std::vector<pipeline::LinePlot> plots;
+    for (const bool thermal : {false, true}) {
+        pipeline::LinePlot plot;
+        plot.title = fmt::format("{}: spectral response", s.id);
+        plot.x.label = "wavelength, um";
+        plot.y = {"response, peak 1", false, 0.0, 1.05};
+        for (const auto& band : s.bands)
+            if ((band.centre_um >= kThermal_um) == thermal)
+                plot.series.push_back({band.id, band.response.lambda_um, band.response.value});
+        if (plot.series.size() > kMostInLegend)
+            for (auto& series : plot.series) series.label.clear();
+        if (!plot.series.empty()) plots.push_back(std::move(plot));
+    }
+    pipeline::write_line_plots(file, plots);
+}
+
+}  // namespace
+
+void sensors_command(const SensorsOptions& options) {
+    if (!options.footprint.empty()) {
+        if (!options.id.empty() || options.json || !options.plot.empty())
+            throw std::invalid_argument(
+                "sensors: --footprint takes its sensors from the scenario; leave ID, --json and --plot out");
+        const auto text = pipeline::footprints_geojson(scenario::load(options.footprint));
+        if (options.output.empty())
+            std::cout << text;
+        else
+            write_text_file(options.output, text);
+        return;
+    }
+    if (!options.output.empty()) throw std::invalid_argument("sensors: -o goes with --footprint");
+    if (!options.plot.empty()) {
+        if (options.id.empty()) throw std::invalid_argument("sensors: --plot needs the ID of a sensor");
+        return plot_responses(options.id, options.plot);
+    }
+    if (options.id.empty())
+        list_sensors(options.json);
+    else
+        show_sensor(options.id, options.json);
 }
 
 }  // namespace pyroscene::cli
