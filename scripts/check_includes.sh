@@ -18,7 +18,7 @@ BEGIN {
     allow["gis"]        = "base"
     allow["render"]     = "base fire radiometry"
     allow["sensors"]    = "base config radiometry gis/geodesy.h"
-    allow["scenario"]   = "base config fire"
+    allow["scenario"]   = "base config fire spread"
     allow["pipeline"]   = "base config fire spread radiometry analysis gis render sensors scenario"
     allow["cli"]        = "base fire spread radiometry analysis gis sensors scenario pipeline"
 

@@ -115,6 +115,8 @@ int dispatch(CLI::App& app, const Arguments& a, const std::string& command_line)
         run_phase(&pipeline::render, a, command_line);
     else if (app.got_subcommand("products"))
         run_phase(&pipeline::products, a, command_line);
+    else if (app.got_subcommand("spread"))
+        run_phase(&pipeline::spread, a, command_line);
     else if (app.got_subcommand("check"))
         return run_check(a);
     else if (app.got_subcommand("sensors")) {
@@ -281,6 +283,8 @@ int main(int argc, char** argv) {
     add_phase(app, a, "prepare", "fire states of all frames, in order");
     add_phase(app, a, "render", "radiance, geolocation and truth of the acquisitions");
     add_phase(app, a, "products", "brightness temperature, ortho images, maps and pictures");
+    auto* spread = add_phase(app, a, "spread", "only the fire of inputs.spread: its rasters, as inputs for other scenarios");
+    spread->footer("Example: pyroscene spread scenarios/lolo_peak/from_ignition.yaml -o out/fire");
     auto* check = app.add_subcommand("check", "everything that is wrong with a scenario, and what it would cost");
     check->add_option("SCENARIO", a.scenario, "scenario file (YAML)");
     check->add_flag("--print-schema", a.print_schema, "print the JSON Schema of scenario files");

@@ -140,6 +140,7 @@ void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario
 
 void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& in,
                           const std::filesystem::path& output) {
+    if (in.modelled) return;  // its own report says it, without the error of an integral over frames
     double released_J = 0.0, before_W = 0.0;
     for (std::size_t i = 0; i < in.frames.size(); ++i) {
         const auto path = state_path(output, in.frames[i].time_s);

@@ -35,6 +35,34 @@ std::string flames_text(const Scenario& s) {
     return out;
 }
 
+std::string text(const std::vector<scenario::ShapesSource>& all) {
+    std::string out;
+    const auto positions = [&](const std::vector<std::array<double, 2>>& list) {
+        for (const auto& p : list) out += fmt::format("{},{} ", p[0], p[1]);
+        out += ";";
+    };
+    for (const auto& shapes : all) {
+        out += fmt::format("{}|{}|{}|", shapes.layer, shapes.crs, shapes.time_s);
+        for (const auto* list : {&shapes.points, &shapes.line, &shapes.polygon}) positions(*list);
+    }
+    return out;
+}
+
+std::string text(const scenario::QuantitySource& q) {
+    return fmt::format("{}|{}|", q.value, q.scale) + (q.raster ? text(*q.raster) : "-;");
+}
+
+std::string spread_text(const scenario::SpreadSource& s) {
+    std::string out =
+        text(s.fuel) + fmt::format("{}|{};", s.table, fmt::join(s.nonburnable, ",")) + text(s.ignition) + text(s.barriers);
+    for (const auto& m : s.moisture_pct) out += fmt::format("{}|", m.value_or(-1.0));
+    out += s.moisture_raster ? text(*s.moisture_raster) : "-;";
+    out += text(s.canopy_cover) + text(s.canopy_height_m);
+    return out + fmt::format("{}|{}|{}|{}|{}|{}|{};", s.crown_ratio, static_cast<int>(s.rules.wind_height),
+                             static_cast<int>(s.rules.curing), s.rules.wind_limit, fmt::join(s.frames_s, ","), s.mean_over_s,
+                             s.coarse_burn_time_s);
+}
+
 std::string fire_text(const Scenario& s) {
     const auto& f = s.fire;
     std::string out =
@@ -51,6 +79,7 @@ std::string fire_text(const Scenario& s) {
     if (!f.scar_of_cover.empty() && s.inputs.cover) out += text(s.inputs.cover->raster);
     out += flames_text(s) + text(s.inputs.terrain) + text(s.inputs.heat_flux);
     if (s.inputs.arrival) out += text(*s.inputs.arrival);
+    if (s.inputs.spread) out += spread_text(*s.inputs.spread);
     if (s.inputs.wind) {
         out += fmt::format("{}|{};", s.inputs.wind->speed_m_s, s.inputs.wind->from_deg);
         if (s.inputs.wind->raster) out += text(*s.inputs.wind->raster);

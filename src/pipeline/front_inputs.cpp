@@ -74,7 +74,7 @@ std::map<int, double> fuel_residence_times_s(const std::string& table) {
 }
 
 fire::FrontInputs load_front_inputs(const Scenario& scenario, const Raster<float>& terrain_m,
-                                    const std::optional<Raster<float>>& arrival_time_s) {
+                                    const std::optional<Raster<float>>& arrival_time_s, const ModelledFire* modelled) {
     const MapGrid& grid = terrain_m.grid;
     const auto& inputs = scenario.inputs;
     const Needs needs(scenario);
@@ -84,9 +84,16 @@ fire::FrontInputs load_front_inputs(const Scenario& scenario, const Raster<float
             read(*inputs.fireline_intensity, grid, gis::Resampling::Nearest, "fireline intensity", "W m-1");
     if (inputs.flame_length)
         front.flame_length_m = read(*inputs.flame_length, grid, gis::Resampling::Nearest, "flame length", "m");
-    if (needs.spread || inputs.spread_rate) front.spread_rate_m_s = spread_rate(scenario, grid, arrival_time_s);
+    if (modelled == nullptr && (needs.spread || inputs.spread_rate))
+        front.spread_rate_m_s = spread_rate(scenario, grid, arrival_time_s);
     if (needs.fuel && inputs.fuel_load)
         front.fuel_load_kg_m2 = read(*inputs.fuel_load, grid, gis::Resampling::Conserve, "fuel load", "kg m-2");
+    if (modelled != nullptr) {
+        front.fireline_intensity_W_m = modelled->fireline_intensity_W_m;
+        front.flame_length_m = modelled->flame_length_m;
+        front.spread_rate_m_s = modelled->spread_rate_m_s;
+        front.fuel_load_kg_m2 = modelled->fuel_load_kg_m2;
+    }
     if (needs.residence) front.residence_time_s = residence_time(scenario, grid);
     if (scenario.fire.flames.tilt.slope) {
         auto slope = fire::terrain_slope(terrain_m);

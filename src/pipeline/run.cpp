@@ -18,6 +18,7 @@
 #include "pipeline/render_phase.h"
 #include "pipeline/run_html.h"
 #include "pipeline/run_report_file.h"
+#include "pipeline/spread_output.h"
 #include "pipeline/state_file.h"
 
 namespace pyroscene::pipeline {
@@ -79,7 +80,7 @@ std::vector<const Acquisition*> chosen_acquisitions(const Scenario& scenario, co
 
 /// A scar's clock starts at the frame that shows it burning, unless an arrival raster says better.
 void warn_of_sparse_frames(const Session& s) {
-    if (s.scenario.inputs.arrival) return;
+    if (s.inputs.arrival_time_s) return;
     double widest = 0.0;
     for (std::size_t i = 1; i < s.inputs.frames.size(); ++i)
         widest = std::max(widest, s.inputs.frames[i].time_s - s.inputs.frames[i - 1].time_s);
@@ -127,6 +128,12 @@ void prepare_phase(Session& s) {
     const PhaseTimer timer(s.report, "prepare");
     warn_of_sparse_frames(s);
     warn_of_flat_flames(s);
+    if (s.inputs.modelled) {
+        record_spread(s.report, *s.inputs.modelled);
+        const auto print = s.fingerprints.state(s.inputs.frames.back().time_s);
+        if (!is_current(s.options.output / "spread" / "arrival.tif", print, s.options))
+            write_front_rasters(*s.inputs.modelled, s.options.output / "spread", print);
+    }
     std::optional<fire::FireState> previous;
     const std::size_t count = s.inputs.frames.size();
     // The states that are still current need not be made again; work starts from the last one before the first gap.
@@ -273,6 +280,22 @@ void in_session(const Scenario& scenario, const RunOptions& options, RunReport& 
 
 }  // namespace
 
+void spread(const Scenario& scenario, const RunOptions& options, RunReport& report) {
+    if (!scenario.inputs.spread)
+        throw input_error(scenario.path.string(),
+                          "has no inputs.spread; 'pyroscene spread' follows the fire that it describes");
+    in_session(scenario, options, report, [](Session& s) {
+        const PhaseTimer timer(s.report, "write");
+        const auto& fire = *s.inputs.modelled;
+        const auto print = s.fingerprints.state(s.inputs.frames.back().time_s);
+        record_spread(s.report, fire);
+        write_front_rasters(fire, s.options.output, print);
+        write_fire_frames(fire, s.options.output, print, s.utc(0.0), [&](double fraction) {
+            s.stop_if_cancelled();
+            s.progress("write", fraction);
+        });
+    });
+}
 void prepare(const Scenario& scenario, const RunOptions& options, RunReport& report) {
     in_session(scenario, options, report, [](Session& s) { prepare_phase(s); });
 }

@@ -29,6 +29,9 @@ void products(const scenario::Scenario& scenario, const RunOptions& options, Run
 /// The main job: prepare, render, products.
 void run(const scenario::Scenario& scenario, const RunOptions& options, RunReport& report);
 
+/// Only the fire of inputs.spread: its rasters, written as inputs for other scenarios. Throws an input error without that key.
+void spread(const scenario::Scenario& scenario, const RunOptions& options, RunReport& report);
+
 /// Everything that is wrong with the rasters and sensors of a scenario, and what a run would compute.
 struct CheckResult {
     std::vector<std::string> problems;  ///< one line each; empty = ready to run

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "pipeline/front_inputs.h"
+#include "pipeline/spread_model.h"
 #include "radiometry/surfaces.h"
 
 namespace pyroscene::pipeline {
@@ -20,65 +21,6 @@ using scenario::RasterSource;
 using scenario::Scenario;
 
 int first_band(const RasterSource& source) { return source.bands.empty() ? 1 : source.bands.front(); }
-
-/// Band of a time series: listed, else every band of every file in order.
-std::vector<FrameSource> frame_bands(const RasterSource& source) {
-    std::vector<FrameSource> frames;
-    for (const auto& file : source.files) {
-        const auto info = gis::read_info(file);
-        const int count = static_cast<int>(info.bands.size());
-        std::vector<int> bands = source.bands;
-        if (bands.empty())
-            for (int b = 1; b <= count; ++b) bands.push_back(b);
-        for (const int band : bands) {
-            if (band > count)
-                throw input_error(file.string(), fmt::format("band {} asked for, but the file has {}", band, count));
-            FrameSource frame{file, band, std::nan("")};
-            const auto& metadata = info.bands[static_cast<std::size_t>(band - 1)].metadata;
-            if (const auto it = metadata.find("time_s"); it != metadata.end())
-                frame.time_s = parse_number(it->second, fmt::format("{}: band {}: time_s", file.string(), band));
-            frames.push_back(frame);
-        }
-    }
-    return frames;
-}
-
-struct WindPair {
-    std::filesystem::path file;
-    int u_band = 1, v_band = 2;
-    double time_s = std::nan("");
-};
-
-/// The u, v bands that hold for a frame: the only pair; else by time, the last one at or before the frame (times_s or the u band's
-/// time_s); else, without times, one pair per frame.
-WindPair wind_pair(const RasterSource& source, std::size_t frame_count, std::size_t frame, double frame_time_s) {
-    const auto bands = frame_bands(source);
-    if (bands.size() % 2 != 0)
-        throw input_error(source.files.front().string(),
-                          fmt::format("wind needs pairs of bands (u, v); found {} band(s)", bands.size()));
-    std::vector<WindPair> pairs;
-    for (std::size_t i = 0; i < bands.size(); i += 2)
-        pairs.push_back({bands[i].file, bands[i].band, bands[i + 1].band, bands[i].time_s});
-    if (!source.times_s.empty()) {
-        if (source.times_s.size() != pairs.size())
-            throw input_error("inputs.wind.times_s",
-                              fmt::format("{} times for {} pairs of bands", source.times_s.size(), pairs.size()));
-        for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].time_s = source.times_s[i];
-    }
-    if (pairs.size() == 1) return pairs.front();
-    const bool timed = std::none_of(pairs.begin(), pairs.end(), [](const WindPair& p) { return std::isnan(p.time_s); });
-    if (!timed) {
-        if (pairs.size() == frame_count) return pairs[frame];
-        throw input_error(
-            source.files.front().string(),
-            fmt::format("{} pairs of wind bands without time_s for {} frames; set inputs.wind.bands: [u, v] or "
-                        "inputs.wind.times_s",
-                        pairs.size(), frame_count));
-    }
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < pairs.size() && pairs[i].time_s <= frame_time_s; ++i) found = i;
-    return pairs[found];
-}
 
 /// Which row of scar.by_cover holds in each cell; no values when there is no such table.
 Raster<std::uint8_t> scar_classes(const Scenario& scenario, const MapGrid& grid) {
@@ -162,13 +104,19 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
         ++count;
     }
     in.mean_height_m = sum / static_cast<double>(count);
-    in.frames = heat_flux_frames(scenario.inputs.heat_flux);
+    if (scenario.inputs.spread) {
+        in.modelled = spread_own_fire(scenario, in.terrain_m);
+        for (const double time_s : in.modelled->frames_s) in.frames.push_back({{}, 0, time_s});
+        in.arrival_time_s = in.modelled->ground.arrival_time_s;
+    } else {
+        in.frames = heat_flux_frames(scenario.inputs.heat_flux);
+    }
     in.cover = cover_materials(scenario, in.grid, in.cover_names);
     in.scar_class = scar_classes(scenario, in.grid);
     if (const auto& arrival = scenario.inputs.arrival)
         in.arrival_time_s = gis::read_band(
             {arrival->files.front(), first_band(*arrival), gis::Resampling::Nearest, "arrival time", "s"}, in.grid);
-    in.front = load_front_inputs(scenario, in.terrain_m, in.arrival_time_s);
+    in.front = load_front_inputs(scenario, in.terrain_m, in.arrival_time_s, in.modelled ? &*in.modelled : nullptr);
     in.origin_m = {0.5 * (in.grid.west_m + in.grid.east_m()), 0.5 * (in.grid.south_m() + in.grid.north_m), 0.0};
     in.centre = gis::MapProjection(in.grid.crs_wkt).to_geodetic(in.origin_m.x, in.origin_m.y, in.mean_height_m);
     return in;
@@ -179,26 +127,15 @@ fire::FrameInputs load_frame(const Scenario& scenario, const SceneInputs& inputs
     fire::FrameInputs out;
     out.time_s = source.time_s;
     out.heat_flux_W_m2 =
-        gis::read_band({source.file, source.band, gis::Resampling::Conserve, "heat flux", "W m-2"}, inputs.grid);
+        inputs.modelled
+            ? heat_flux_W_m2(*inputs.modelled, source.time_s)
+            : gis::read_band({source.file, source.band, gis::Resampling::Conserve, "heat flux", "W m-2"}, inputs.grid);
     out.arrival_time_s = inputs.arrival_time_s;
     out.front = &inputs.front;
     out.scar_class = inputs.scar_class;
-    const auto& wind = scenario.inputs.wind;
-    if (wind && wind->raster) {
-        const auto pair = wind_pair(*wind->raster, inputs.frames.size(), frame, source.time_s);
-        auto field = gis::read_wind(pair.file, pair.u_band, pair.v_band, inputs.grid);
-        out.wind_east_m_s = std::move(field.east_m_s);
-        out.wind_north_m_s = std::move(field.north_m_s);
-        return out;
-    }
-    // A uniform wind is given against true north; the grid's axes are turned by the convergence at the centre.
-    const double speed = wind ? wind->speed_m_s : 0.0;
-    const double from_rad = wind ? wind->from_deg * kDegree_rad : 0.0;
-    const double convergence = gis::MapProjection(inputs.grid.crs_wkt).convergence_rad(inputs.origin_m.x, inputs.origin_m.y);
-    const double to_grid_rad = from_rad + kPi - convergence;
-    out.wind_east_m_s = Raster<float>(inputs.grid, "wind east", "m s-1", static_cast<float>(speed * std::sin(to_grid_rad)));
-    out.wind_north_m_s =
-        Raster<float>(inputs.grid, "wind north", "m s-1", static_cast<float>(speed * std::cos(to_grid_rad)));
+    auto wind = wind_at(scenario, inputs.grid, inputs.frames.size(), frame, source.time_s);
+    out.wind_east_m_s = std::move(wind.east_m_s);
+    out.wind_north_m_s = std::move(wind.north_m_s);
     return out;
 }
 
@@ -213,7 +150,8 @@ std::size_t frame_at(const std::vector<FrameSource>& frames, double time_s, cons
 
 std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     const auto& in = scenario.inputs;
-    std::vector<const RasterSource*> sources{&in.terrain, &in.heat_flux};
+    std::vector<const RasterSource*> sources{&in.terrain};
+    if (!in.spread) sources.push_back(&in.heat_flux);
     if (in.fuel_load) sources.push_back(&*in.fuel_load);
     if (in.arrival) sources.push_back(&*in.arrival);
     for (const auto* source : {&in.fireline_intensity, &in.flame_length, &in.spread_rate})
@@ -221,6 +159,8 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     if (in.wind && in.wind->raster) sources.push_back(&*in.wind->raster);
     if (in.cover) sources.push_back(&in.cover->raster);
     std::set<std::filesystem::path> unique;
+    if (in.spread)
+        for (const auto& file : spread_files(*in.spread)) unique.insert(file);
     if (in.plume) unique.insert(in.plume->files.begin(), in.plume->files.end());
     for (const auto* source : sources) unique.insert(source->files.begin(), source->files.end());
     return {unique.begin(), unique.end()};

@@ -11,16 +11,11 @@
 #include "fire/state.h"
 #include "gis/geodesy.h"
 #include "gis/raster_input.h"
+#include "pipeline/modelled_fire.h"
+#include "pipeline/wind_inputs.h"
 #include "scenario/scenario.h"
 
 namespace pyroscene::pipeline {
-
-/// One heat-flux frame of a scenario: where its band lies.
-struct FrameSource {
-    std::filesystem::path file;
-    int band = 1;
-    double time_s = 0.0;
-};
 
 /// Everything of a scenario that does not change with time, on the map grid.
 struct SceneInputs {
@@ -29,11 +24,12 @@ struct SceneInputs {
     Raster<std::uint8_t> cover;            ///< index into the surface library of unburnt ground
     std::vector<std::string> cover_names;  ///< what the indices mean (surface spectrum names)
     std::optional<Raster<float>> arrival_time_s;
-    fire::FrontInputs front;          ///< what the scenario's flame relations read
-    Raster<std::uint8_t> scar_class;  ///< see fire::FrameInputs::scar_class
-    std::vector<FrameSource> frames;  ///< ascending in time
-    Vec3 origin_m;                    ///< map x, y of the scene frame's origin (centre of the grid), z = 0
-    gis::Geodetic centre;             ///< of the map, at mean terrain height
+    fire::FrontInputs front;               ///< what the scenario's flame relations read
+    Raster<std::uint8_t> scar_class;       ///< see fire::FrameInputs::scar_class
+    std::optional<ModelledFire> modelled;  ///< of a spread model; heat flux comes from it
+    std::vector<FrameSource> frames;       ///< of the heat flux, ascending in time
+    Vec3 origin_m;                         ///< map x, y of the scene frame's origin (centre of the grid), z = 0
+    gis::Geodetic centre;                  ///< of the map, at mean terrain height
     double lowest_m = 0.0, highest_m = 0.0, mean_height_m = 0.0;
 };
 

@@ -83,12 +83,13 @@ void read_flame_relations(const config::Node& node, fire::FireParameters& p) {
 void check_flame_inputs(const config::Node& root, const Scenario& s) {
     const auto& flames = s.fire.flames;
     const auto inputs = root.child("inputs"), fire = root.child("fire");
-    const bool has_spread = s.inputs.arrival.has_value() || s.inputs.spread_rate.has_value();
-    if (flames.height.method == "raster" && !s.inputs.flame_length)
+    const bool own_fire = s.inputs.spread.has_value();  // which knows all of it
+    const bool has_spread = own_fire || s.inputs.arrival.has_value() || s.inputs.spread_rate.has_value();
+    if (flames.height.method == "raster" && !s.inputs.flame_length && !own_fire)
         inputs.report("key 'flame_length' is missing; 'raster' in fire.flame_height reads it");
     if (s.inputs.flame_length && flames.height.method != "raster")
         inputs.child("flame_length").report("is not used; 'raster' in fire.flame_height.method reads it");
-    if (flames.intensity == fire::IntensityRule::Fuel && !(s.inputs.fuel_load && has_spread))
+    if (flames.intensity == fire::IntensityRule::Fuel && !own_fire && !(s.inputs.fuel_load && has_spread))
         inputs.report("'fuel_load', and 'arrival' or 'spread_rate', are needed by 'fuel' in fire.fireline_intensity");
     if (flames.depth != fire::DepthRule::ResidenceTime) return;
     if (!has_spread) inputs.report("'arrival' or 'spread_rate' is needed by 'residence_time' in fire.front_depth");

@@ -62,7 +62,11 @@ std::vector<int> read_bands(const config::Node& node, const SourceShape& shape) 
     std::vector<int> bands;
     for (const auto& item : several.items()) bands.push_back(static_cast<int>(item.as_integer(1, kBand)));
     if (bands.size() % shape.bands_per_frame != 0)
-        several.report(fmt::format("expected pairs of band numbers (u, v of each frame), found {} numbers", bands.size()));
+        several.report(
+            shape.bands_per_frame == 2
+                ? fmt::format("expected pairs of band numbers (u, v of each frame), found {} numbers", bands.size())
+                : fmt::format("expected {} band numbers for each frame, found {} numbers", shape.bands_per_frame,
+                              bands.size()));
     return bands;
 }
 
@@ -154,14 +158,27 @@ CoverSource read_cover(const config::Node& node, const fs::path& folder) {
 
 }  // namespace
 
+RasterSource read_raster(const config::Node& node, const fs::path& folder) { return read_source(node, folder, kStatic); }
+
+RasterSource read_raster_series(const config::Node& node, const fs::path& folder, std::size_t bands_per_frame) {
+    return read_source(node, folder, {true, bands_per_frame});
+}
+
 Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     Inputs inputs;
     if (!node.present()) return inputs;
-    const config::Node terrain = node.required_child("terrain"), heat_flux = node.required_child("heat_flux");
+    const config::Node terrain = node.required_child("terrain"), spread = node.child("spread");
     inputs.terrain = read_source(terrain, folder, kStatic);
     terrain.finish();
-    inputs.heat_flux = read_source(heat_flux, folder, kScalarSeries);
-    heat_flux.finish();
+    if (spread.present()) {
+        inputs.spread = read_spread(spread, folder);
+        for (const char* key : {"heat_flux", "fuel_load", "arrival", "fireline_intensity", "flame_length", "spread_rate"})
+            if (node.has(key)) node.child(key).report("comes from 'spread'; give one of the two");
+    } else {
+        const config::Node heat_flux = node.required_child("heat_flux");
+        inputs.heat_flux = read_source(heat_flux, folder, kScalarSeries);
+        heat_flux.finish();
+    }
     inputs.fuel_load = read_optional(node.child("fuel_load"), folder, kScalarSeries);
     inputs.arrival = read_optional(node.child("arrival"), folder, kStatic);
     inputs.fireline_intensity = read_optional(node.child("fireline_intensity"), folder, kStatic);

@@ -22,6 +22,11 @@ inline constexpr config::Range kTemperature_K = config::Range::between(200.0, 35
 /// \param folder  of the scenario file; relative paths start there
 Inputs read_inputs(const config::Node& node, const std::filesystem::path& folder);
 fire::FireParameters read_fire(const config::Node& node);
+/// A raster that does not change with time; the caller calls finish().
+RasterSource read_raster(const config::Node& node, const std::filesystem::path& folder);
+/// Rasters that may change with time, so many bands for each moment; the caller calls finish().
+RasterSource read_raster_series(const config::Node& node, const std::filesystem::path& folder, std::size_t bands_per_frame);
+SpreadSource read_spread(const config::Node& node, const std::filesystem::path& folder);
 /// Flame height, tilt, fireline intensity and front depth: the part of `fire` that read_flames.cpp reads.
 void read_flame_relations(const config::Node& fire, fire::FireParameters& parameters);
 /// Reports inputs that the chosen flame relations need and do not have, and the reverse.

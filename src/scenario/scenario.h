@@ -12,16 +12,10 @@
 #include "fire/flame_field.h"
 #include "fire/plume.h"
 #include "fire/state.h"
+#include "scenario/raster_source.h"
+#include "scenario/spread_source.h"
 
 namespace pyroscene::scenario {
-
-/// One or several raster files with the bands to read and, for time series, the time of each frame.
-struct RasterSource {
-    std::vector<std::filesystem::path> files;  ///< absolute
-    std::vector<int> bands;                    ///< 1-based; empty = all (time series) or band 1
-    std::vector<double> times_s;               ///< one per frame; empty = band metadata time_s
-    int line = 0;                              ///< of the key in the scenario, for messages
-};
 
 /// Wind as rasters (u, v bands) or as one vector for the whole map.
 struct WindSource {
@@ -45,7 +39,8 @@ struct PlumeSource {
 };
 
 struct Inputs {
-    RasterSource terrain, heat_flux;
+    RasterSource terrain, heat_flux;  ///< no heat flux with `spread`
+    std::optional<SpreadSource> spread;
     std::optional<RasterSource> fuel_load, arrival;
     std::optional<RasterSource> fireline_intensity, flame_length, spread_rate;  ///< as the front passes; static
     std::optional<WindSource> wind;                                             ///< absent = calm

@@ -29,7 +29,8 @@ constexpr const char* kSchema = R"json({
     "inputs": {
       "type": "object",
       "additionalProperties": false,
-      "required": ["terrain", "heat_flux"],
+      "required": ["terrain"],
+      "oneOf": [{"required": ["heat_flux"]}, {"required": ["spread"]}],
       "properties": {
         "terrain": {"$ref": "#/$defs/static", "description": "elevation, m"},
         "heat_flux": {"$ref": "#/$defs/series", "description": "sensible heat flux of the surface fire, W m-2"},
@@ -57,6 +58,91 @@ constexpr const char* kSchema = R"json({
         "fireline_intensity": {"$ref": "#/$defs/static", "description": "as the front passes, W m-1"},
         "flame_length": {"$ref": "#/$defs/static", "description": "along the leaning axis, m; for flame_height.method: raster"},
         "spread_rate": {"$ref": "#/$defs/static", "description": "of the front, m s-1; default: from arrival"},
+        "spread": {
+          "description": "a fire that the program spreads itself, instead of heat_flux, fuel_load, arrival and what a front shows",
+          "type": "object",
+          "additionalProperties": false,
+          "required": ["fuel", "ignition", "moisture"],
+          "properties": {
+            "fuel": {
+              "description": "fuel model of each cell",
+              "type": "object",
+              "additionalProperties": false,
+              "required": ["file", "table"],
+              "properties": {
+                "file": {"type": "string"},
+                "band": {"$ref": "#/$defs/band"},
+                "table": {"type": "string", "description": "which codes: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
+                  "examples": ["fbfm13", "fbfm40", "fbfm53"]},
+                "custom": {"type": "string", "description": "CSV file of more fuel models"},
+                "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"}
+              }
+            },
+            "ignition": {"type": "array", "minItems": 1, "items": {
+              "type": "object",
+              "additionalProperties": false,
+              "properties": {
+                "file": {"type": "string", "description": "any vector format"},
+                "layer": {"type": "string"},
+                "point": {"$ref": "#/$defs/position"},
+                "points": {"$ref": "#/$defs/positions"},
+                "line": {"$ref": "#/$defs/positions"},
+                "polygon": {"$ref": "#/$defs/positions"},
+                "crs": {"type": "string", "description": "of the coordinates; default: the map's"},
+                "time_s": {"type": "number", "minimum": 0, "maximum": 1e8, "description": "from when on it burns; without it: 0"}
+              }}},
+            "barriers": {"type": "array", "minItems": 1, "items": {
+              "type": "object",
+              "additionalProperties": false,
+              "properties": {
+                "file": {"type": "string", "description": "any vector format"},
+                "layer": {"type": "string"},
+                "point": {"$ref": "#/$defs/position"},
+                "points": {"$ref": "#/$defs/positions"},
+                "line": {"$ref": "#/$defs/positions"},
+                "polygon": {"$ref": "#/$defs/positions"},
+                "crs": {"type": "string", "description": "of the coordinates; default: the map's"}
+              }}},
+            "moisture": {
+              "description": "of the fuel, per cent of its dry mass: numbers, a table, or rasters",
+              "type": "object",
+              "additionalProperties": false,
+              "properties": {
+                "m1h_pct": {"$ref": "#/$defs/moisture_pct"},
+                "m10h_pct": {"$ref": "#/$defs/moisture_pct"},
+                "m100h_pct": {"$ref": "#/$defs/moisture_pct"},
+                "mherb_pct": {"$ref": "#/$defs/moisture_pct"},
+                "mwoody_pct": {"$ref": "#/$defs/moisture_pct"},
+                "table": {"type": "string", "description": "CSV: time_s and the moistures that have no number"},
+                "file": {"type": "string", "description": "five bands for each moment, in the order of the keys"},
+                "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+                "bands": {"type": "array", "minItems": 5, "items": {"$ref": "#/$defs/band"}},
+                "times_s": {"$ref": "#/$defs/times_s"}
+              }
+            },
+            "canopy": {
+              "description": "trees, which shelter the fuel from the wind",
+              "type": "object",
+              "additionalProperties": false,
+              "properties": {
+                "cover": {"description": "0 to 1, or a raster",
+                  "oneOf": [{"type": "number", "minimum": 0, "maximum": 1}, {"$ref": "#/$defs/scaled"}]},
+                "height_m": {"description": "0 to 150, or a raster",
+                  "oneOf": [{"type": "number", "minimum": 0, "maximum": 150}, {"$ref": "#/$defs/scaled"}]},
+                "crown_ratio": {"type": "number", "minimum": 0, "maximum": 1, "description": "without it: 0.5"}
+              }
+            },
+            "wind_height": {"enum": ["midflame", "20ft", "10m"], "description": "without it: 20ft"},
+            "wind_limit": {"type": "boolean", "description": "without it: false"},
+            "curing": {"enum": ["behave", "linear"], "description": "without it: behave"},
+            "duration_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7},
+            "frame_step_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "description": "without it: 300"},
+            "frames_s": {"type": "array", "minItems": 1, "items": {"type": "number"}, "description": "instead of both"},
+            "mean_over_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7,
+              "description": "default: 6, or the shortest time between frames when that is less"},
+            "coarse_burn_time_s": {"type": "number", "minimum": 1, "maximum": 1e5, "description": "without it: 300"}
+          }
+        },
         "plume": {
           "description": "three-dimensional field above the fire, one band per level",
           "type": "object",
@@ -356,6 +442,19 @@ constexpr const char* kSchema = R"json({
       "description": "s since start of each frame, ascending; default: band metadata time_s"},
     "surface": {"type": "string", "description": "one of these, or a name of surface.spectra", "examples": ["grass_green", "grass_dry", "grass_cured_20pct_green", "chaparral", "conifer", "litter_needles",
       "soil_bare", "soil_dark", "soil_light", "char_black", "ash_gray", "ash_white", "rock_gravel", "asphalt", "water"]},
+    "moisture_pct": {"type": "number", "minimum": 0, "maximum": 1000},
+    "position": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number"}, "description": "x, y"},
+    "positions": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/position"}},
+    "scaled": {
+      "type": "object",
+      "additionalProperties": false,
+      "required": ["file"],
+      "properties": {
+        "file": {"type": "string"},
+        "band": {"$ref": "#/$defs/band"},
+        "scale": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e6, "description": "of the values; without it: 1"}
+      }
+    },
     "static": {
       "type": "object",
       "additionalProperties": false,

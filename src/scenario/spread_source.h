@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/raster_source.h"
+#include "spread/landscape.h"
+
+namespace pyroscene::scenario {
+
+/// A quantity as one number or as rasters.
+struct QuantitySource {
+    double value = 0.0;
+    std::optional<RasterSource> raster;
+    double scale = 1.0;  ///< of the raster's values
+};
+
+/// Places on the map: a file of any vector format, or coordinates.
+struct ShapesSource {
+    std::optional<std::filesystem::path> file;
+    std::string layer;  ///< of a file with several
+    std::vector<std::array<double, 2>> points, line, polygon;
+    std::string crs;      ///< of coordinates (empty = the map's) and of files that do not say theirs
+    double time_s = 0.0;  ///< from when on it burns
+    int line_number = 0;  ///< in the scenario, for messages
+};
+
+/// A fire that the program's own model spreads (inputs.spread).
+struct SpreadSource {
+    RasterSource fuel;                            ///< codes
+    std::string table;                            ///< fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models
+    std::optional<std::filesystem::path> custom;  ///< more fuel models, which replace those with the same number
+    std::vector<int> nonburnable;                 ///< further codes without fire
+    std::vector<ShapesSource> ignition, barriers;
+    std::array<std::optional<double>, spread::kFuelClasses> moisture_pct;  ///< everywhere and always; goes first
+    std::optional<RasterSource> moisture_raster;                           ///< five bands for each moment, per cent
+    std::optional<std::filesystem::path> moisture_table;                   ///< CSV: time_s and moistures in per cent
+    QuantitySource canopy_cover, canopy_height_m;
+    double crown_ratio = 0.5;
+    spread::SpreadRules rules;
+    std::vector<double> frames_s;       ///< times of the heat flux, ascending; the last is the end
+    double mean_over_s = 6.0;           ///< the flux of a frame is the mean over so many seconds before it
+    double coarse_burn_time_s = 300.0;  ///< e-folding time of 10-h and 100-h fuel
+    int line = 0;
+};
+
+}  // namespace pyroscene::scenario
