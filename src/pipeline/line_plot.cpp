@@ -259,8 +259,11 @@ std::vector<double> axis_ticks(double low, double high, bool logarithmic, int ab
     std::vector<double> ticks;
     constexpr double kRounding = 1e-9;
     if (logarithmic) {
-        const bool few = std::log10(high / low) < 3.0;
-        for (int decade = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, decade) <= high; ++decade)
+        const double decades = std::log10(high / low);
+        const bool few = decades < 3.0;
+        const int step = std::max(1, static_cast<int>(std::ceil(decades / (2.0 * std::max(1, about)))));
+        const int first = static_cast<int>(std::floor(std::log10(low)));
+        for (int decade = first - (first % step + step) % step; std::pow(10.0, decade) <= high; decade += step)
             for (const double factor : {1.0, 2.0, 5.0}) {
                 const double v = factor * std::pow(10.0, decade);
                 if ((few || factor == 1.0) && v >= low * (1.0 - kRounding) && v <= high * (1.0 + kRounding))

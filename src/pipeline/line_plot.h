@@ -42,7 +42,7 @@ struct LinePlot {
 };
 
 /// Round tick positions of an axis from low to high: 1, 2 or 5 times a power of ten, about `about` of them; on a logarithmic
-/// axis powers of ten, with 2 and 5 between them where there are few.
+/// axis powers of ten, with 2 and 5 between them where there are few and steps of several powers where there are many.
 std::vector<double> axis_ticks(double low, double high, bool logarithmic, int about);
 
 /// Width and height in pixels that a diagram leaves inside its frame.

@@ -81,7 +81,10 @@ void draw_colour_bar(cv::Mat& canvas, cv::Rect bar, const ColourScale& scale, co
         cv::line(canvas, {bar.x + bar.width, y}, {bar.x + bar.width + 4, y}, kInk);
         text(canvas, fmt::format("{:.4g}", scale.value_at(p)), {bar.x + bar.width + 7, y + 4}, 0.4);
     }
-    text(canvas, unit, {bar.x - 2, bar.y + bar.height + 16}, 0.36);
+    constexpr double kUnitSize = 0.36;
+    int baseline = 0;
+    const int width = cv::getTextSize(unit, cv::FONT_HERSHEY_SIMPLEX, kUnitSize, 1, &baseline).width;
+    text(canvas, unit, {std::min(bar.x - 2, canvas.cols - width - 2), bar.y + bar.height + 16}, kUnitSize);
 }
 
 cv::Mat draw_panel(const QuicklookPanel& panel, double pixel_m) {

@@ -16,6 +16,7 @@ TEST(AxisTicks, AreRound) {
     EXPECT_EQ(axis_ticks(-3.3, 4.0, false, 3), (std::vector<double>{-2, 0, 2, 4}));
     EXPECT_EQ(axis_ticks(0.3, 20.0, true, 5), (std::vector<double>{0.5, 1, 2, 5, 10, 20}));
     EXPECT_EQ(axis_ticks(0.5, 2e4, true, 5), (std::vector<double>{1, 10, 100, 1000, 10000}));
+    EXPECT_EQ(axis_ticks(2e-8, 2e8, true, 4), (std::vector<double>{1e-6, 1e-4, 1e-2, 1, 1e2, 1e4, 1e6, 1e8}));
 }
 
 bool is_coloured(const cv::Vec3b& c) { return std::abs(c[0] - c[2]) > 60; }

@@ -1,0 +1,40 @@
+# Spectra of flames: figures 6.1 to 6.3, 6.5, A.1, A.2 and A.4.
+flame() { pyroscene calc flame-emissivity "$@"; }
+
+# Figure 6.1 (a): 2.4 m of flame of 1700 K against a blackbody; (b): its potassium lines at the 3 nm of the ASD's sampling.
+{ echo wavelength_um; awk 'BEGIN { for (w = 0.35; w <= 2.5; w += 0.005) printf "%.4f\n", w }'; } >"$tables/asd_in.csv"
+flame --csv "$tables/asd_in.csv" --temperature_K 1700 --path_m 2.438 -o "$tables/asd.csv"
+awk -F, 'NR == 1 { print "wavelength_um,flame,black_body_1700_K"; next } { printf "%s,%s,%.6g\n", $1, $3, 1.191042972e8 / ($1 ^ 5 * (exp(14387.7688 / ($1 * 1700)) - 1)) }' "$tables/asd.csv" >"$tables/fig_6_1a.csv"
+pyroscene plot "$tables/fig_6_1a.csv" --x wavelength_um --y flame,black_body_1700_K --x-label "wavelength [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_6_1a.png"
+# Figure 6.2: radiance at 1.2 um over the length of the fuel bed.
+{ echo path_m; for l in 0.305 0.61 0.914 1.219 1.524 1.829 2.134 2.438 2.743; do echo $l; done; } >"$tables/bed_in.csv"
+flame --csv "$tables/bed_in.csv" --temperature_K 1700 --wavelength_um 1.2 -o "$tables/bed.csv"
+pyroscene plot "$tables/bed.csv" --x path_m --y radiance_W_m2_sr_um --points radiance_W_m2_sr_um --x-label "length [m]" --y-label "radiance at 1.2 um [W m-2 sr-1 um-1]" -o "$images/fig_6_2.png"
+number bed_2438_over_305 "$(awk -F, '$1 == "0.305" { a = $3 } $1 == "2.438" { print $3 / a }' "$tables/bed.csv")"
+
+# Figure 6.3: 20 cm of flame from 1.5 to 15 um; water at 2.7 and 6.5 um, carbon dioxide at 4.3 um stand out of the soot.
+{ echo wavelength_um; awk 'BEGIN { for (w = 1.5; w <= 15; w += 0.02) printf "%.4f\n", w }'; } >"$tables/ir_in.csv"
+flame --csv "$tables/ir_in.csv" --temperature_K 1153 --path_m 0.2 -o "$tables/ir.csv"
+awk -F, 'NR == 1 { print "wavelength_um,flame,black_body_1153_K"; next } { printf "%s,%s,%.6g\n", $1, $3, 1.191042972e8 / ($1 ^ 5 * (exp(14387.7688 / ($1 * 1153)) - 1)) }' "$tables/ir.csv" >"$tables/fig_6_3.csv"
+pyroscene plot "$tables/fig_6_3.csv" --x wavelength_um --y flame,black_body_1153_K --x-label "wavelength [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_6_3.png"
+emissivity() { result flame-emissivity --wavelength_um "$1" --temperature_K 1153 --path_m 0.2 emissivity; }
+number emissivity_20cm_4.3um "$(emissivity 4.4)"
+number emissivity_20cm_gas_over_window "$(awk -v a="$(emissivity 4.4)" -v b="$(emissivity 3.9)" 'BEGIN { print a / b }')"
+
+# Figure 6.5: 8 m of air at 1100 K with the gases of the atmosphere, no soot.
+{ echo wavelength_um; awk 'BEGIN { for (w = 1; w <= 15; w += 0.02) printf "%.4f\n", w }'; } >"$tables/hot_air_in.csv"
+flame --csv "$tables/hot_air_in.csv" --temperature_K 1100 --path_m 8 --soot_volume_fraction 0 --x_h2o 0.014 --x_co2 0.00037 --x_co 0 --x_o2 0.2 -o "$tables/hot_air.csv"
+awk -F, 'NR == 1 { print "wavelength_um,transmittance,radiance"; next } { printf "%s,%.6g,%s\n", $1, 1 - $2, $3 }' "$tables/hot_air.csv" >"$tables/fig_6_5.csv"
+pyroscene plot "$tables/fig_6_5.csv" --x wavelength_um --y transmittance --x-label "wavelength [um]" -o "$images/fig_6_5_transmission.png"
+pyroscene plot "$tables/fig_6_5.csv" --x wavelength_um --y radiance --x-label "wavelength [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_6_5_emission.png"
+
+# Figures A.1 and A.2: appendix A as printed (n_e, N and A are not given there).
+{ echo temperature_K; seq 600 20 2000; } >"$tables/potassium_in.csv"
+pyroscene calc thesis-potassium --csv "$tables/potassium_in.csv" -o "$tables/potassium.csv"
+pyroscene plot "$tables/potassium.csv" --x temperature_K --y power_W --log-y --x-label "temperature [K]" --y-label "power of the lines [W]" -o "$images/fig_A_1.png"
+pyroscene plot "$tables/potassium.csv" --x temperature_K --y ratio_766,ratio_770 --log-y --x-label "temperature [K]" --y-label "potassium / blackbody" -o "$images/fig_A_2.png"
+# Figure A.4: what the lines are in local thermal equilibrium, 1 m of flame at 1100 K with 1 ppm of potassium.
+{ echo wavelength_um; awk 'BEGIN { for (w = 0.764; w <= 0.772; w += 0.00001) printf "%.5f\n", w }'; } >"$tables/lines_in.csv"
+flame --csv "$tables/lines_in.csv" --temperature_K 1100 --path_m 1 --potassium_ppm 1 -o "$tables/lines.csv"
+pyroscene plot "$tables/lines.csv" --x wavelength_um --y radiance_W_m2_sr_um --x-label "wavelength in vacuum [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_A_4.png"
+number potassium_line_over_continuum "$(awk -F, 'NR > 1 { if ($2 > most) most = $2; if (!first) first = $2 } END { print most / first }' "$tables/lines.csv")"
