@@ -169,11 +169,18 @@ void add_fit_scar(CLI::App& app, cli::FitScarOptions& o) {
 void add_unmix(CLI::App& app, cli::UnmixOptions& o) {
     auto* sub = app.add_subcommand("unmix", "fractions of known spectra in each pixel of any raster");
     sub->add_option("IMAGE", o.image, "raster with a band per wavelength")->required();
-    sub->add_option("--endmembers", o.endmembers, "table: wavelength_um, wavelength_nm or band, then a column per spectrum");
+    sub->add_option("--endmembers", o.endmembers,
+                    "table: wavelength_um, wavelength_nm or band, then a column per spectrum; or an ENVI library (.sli)");
+    sub->add_option("--sensor", o.sensor,
+                    "whose responses average spectra finer than the bands (default: as the image says)");
     sub->add_option("--truth", o.truth, "truth.tif of the image: its pure pixels give endmembers, its fractions the score");
     sub->add_option("--pure", o.pure, "fraction from which on a pixel of the truth counts as pure")
         ->check(CLI::Range(0.01, 1.0))
         ->capture_default_str();
+    sub->add_option(
+           "--purest", o.purest,
+           "classes without such pixels: take their purest ones, if they hold this fraction (default: leave them out)")
+        ->check(CLI::Range(0.01, 1.0));
     sub->add_option("--method", o.method, "stepwise selection by F-tests, or least squares with all endmembers")
         ->check(CLI::IsMember(cli::unmix_methods()))
         ->capture_default_str();

@@ -37,6 +37,8 @@ void unmix_command(const UnmixOptions& options, const std::atomic<bool>& interru
     job.truth = path_or_none(options.truth);
     job.noise = path_or_none(options.noise);
     job.pure_fraction = options.pure;
+    if (!options.sensor.empty()) job.sensor = options.sensor;
+    if (options.purest > 0.0) job.purest_fraction = options.purest;
     job.settings.stepwise = options.method == "stepwise";
     job.settings.solver = solver_of(job.settings.stepwise ? options.solver : options.method);
     job.settings.alpha_enter = job.settings.alpha_remove = options.alpha;

@@ -8,9 +8,9 @@ namespace pyroscene::cli {
 
 /// What `pyroscene unmix` was asked for.
 struct UnmixOptions {
-    std::string image, endmembers, truth, noise, output;
+    std::string image, endmembers, truth, noise, sensor, output;
     std::string method = "stepwise", solver = "ucls";
-    double alpha = 0.05, pure = 0.98;
+    double alpha = 0.05, pure = 0.98, purest = 0.0;  ///< purest: 0 = not given
     int threads = 0;
     bool quiet = false;
 };

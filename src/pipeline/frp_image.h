@@ -17,7 +17,7 @@ struct FrpJob {
     std::optional<int> mir_band, tir_band;  ///< from 1; default: the bands nearest 3.96 and 11 um
     std::optional<double> coefficient;      ///< a of L = a T^4; default: fitted to the band's response over 650 to 1350 K
     std::optional<std::string>
-        sensor;  ///< whose responses the bands have; default: as the image says, else boxcars of the FWHM
+        sensor;  ///< whose responses the bands have; default: the shipped sensor that the image names, else boxcars of the FWHM
     double mir_transmittance = 1.0, tir_transmittance = 1.0;
     double mir_path = 0.0, tir_path = 0.0;  ///< path radiance, W m-2 sr-1 um-1
     bool subtract_background = true;

@@ -10,6 +10,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "pipeline/band_response.h"
 #include "radiometry/planck.h"
 
 namespace pyroscene::pipeline {
@@ -64,10 +65,8 @@ DateAndClock date_and_clock(const std::string& iso8601) {
     return {iso8601.substr(0, 10), iso8601.substr(11, 2) + iso8601.substr(14, 2)};
 }
 
-ImageChannels::ImageChannels(const std::filesystem::path& image, const std::optional<std::string>& sensor) : image_(image) {
-    const std::string id = sensor ? *sensor : metadata_item(info(), "SENSOR");
-    if (!id.empty()) sensor_ = sensors::load_sensor(id);
-}
+ImageChannels::ImageChannels(const std::filesystem::path& image, const std::optional<std::string>& sensor)
+    : image_(image), sensor_(sensor_of_image(info(), sensor)) {}
 
 int ImageChannels::find(const BandWish& wish) const {
     int found = 0;
@@ -112,14 +111,7 @@ Spectrum ImageChannels::response_of(const gis::OutputBand& band) const {
         const double half_um = 0.5 * band.fwhm_um.value_or(0.02 * centre_um);
         return {Quantity::Response, {centre_um - half_um, centre_um + half_um}, {1.0, 1.0}};
     }
-    const auto id = band.metadata.find("band_id");
-    int index = id == band.metadata.end() ? -1 : sensor_->band_index(id->second);
-    for (std::size_t b = 0; index < 0 && b < sensor_->bands.size(); ++b)
-        if (std::abs(sensor_->bands[b].centre_um - centre_um) < 0.25 * sensor_->bands[b].fwhm_um)
-            index = static_cast<int>(b);
-    if (index < 0)
-        throw input_error(image_.path().string(), fmt::format("sensor {} has no band at {} um", sensor_->id, centre_um));
-    return sensor_->bands[static_cast<std::size_t>(index)].response;
+    return band_response(*sensor_, band, image_.path());
 }
 
 Channel ImageChannels::read(int number, Expect expect) {

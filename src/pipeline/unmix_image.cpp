@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include <fmt/format.h>
@@ -83,7 +84,28 @@ TruthClasses read_truth(const std::filesystem::path& path, const gis::ImageInfo&
 }
 
 /// Mean spectra of the pixels that hold (nearly) nothing but one class. Classes without such pixels are left out.
+/// From which fraction on a pixel speaks for each class: the job's limit, or, for classes that never reach it, 90 % of what their
+/// purest pixel holds, if that is enough for the job. Infinite for classes without such pixels.
+std::vector<double> pure_limits(const TruthClasses& truth, const UnmixJob& job) {
+    constexpr double kNearPurest = 0.9;
+    const auto pixels = static_cast<std::size_t>(truth.file.cols) * static_cast<std::size_t>(truth.file.rows);
+    std::vector<double> limits;
+    for (std::size_t k = 0; k < truth.names.size(); ++k) {
+        double purest = 0.0;
+        for (std::size_t p = 0; p < pixels; ++p)
+            if (truth.fraction(k, p) > purest) purest = truth.fraction(k, p);
+        if (purest >= job.pure_fraction)
+            limits.push_back(job.pure_fraction);
+        else
+            limits.push_back(job.purest_fraction && purest >= *job.purest_fraction
+                                 ? kNearPurest * purest
+                                 : std::numeric_limits<double>::infinity());
+    }
+    return limits;
+}
+
 analysis::Endmembers pure_spectra(gis::ImageStream& image, const TruthClasses& truth, const UnmixJob& job) {
+    const auto limits = pure_limits(truth, job);
     const gis::ImageInfo& info = image.info();
     const std::size_t classes = truth.names.size(), bands = info.bands.size();
     std::vector<double> sums(classes * bands, 0.0);
@@ -93,7 +115,7 @@ analysis::Endmembers pure_spectra(gis::ImageStream& image, const TruthClasses& t
         const std::size_t begin = static_cast<std::size_t>(first) * static_cast<std::size_t>(info.cols);
         for (std::size_t p = 0; p < n; ++p) {
             for (std::size_t k = 0; k < classes; ++k) {
-                if (!(truth.fraction(k, begin + p) >= job.pure_fraction)) continue;
+                if (!(truth.fraction(k, begin + p) >= limits[k])) continue;
                 bool valid = true;
                 for (std::size_t b = 0; b < bands; ++b) valid = valid && std::isfinite(pixels[b * n + p]);
                 if (!valid) continue;
@@ -170,9 +192,10 @@ UnmixReport unmix_image(const UnmixJob& job) {
     std::optional<TruthClasses> truth;
     if (job.truth) truth = read_truth(*job.truth, info);
     UnmixReport report;
-    report.library = job.endmembers ? read_endmembers(*job.endmembers, info) : pure_spectra(image, *truth, job);
+    report.library =
+        job.endmembers ? read_endmembers(*job.endmembers, job.image, info, job.sensor) : pure_spectra(image, *truth, job);
     auto settings = job.settings;
-    if (job.noise) settings.noise = read_noise(*job.noise, info);
+    if (job.noise) settings.noise = read_noise(*job.noise, job.image, info);
     const analysis::Unmixer unmixer(report.library, settings);
 
     const auto k = static_cast<std::size_t>(report.library.count());

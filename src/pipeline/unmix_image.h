@@ -15,10 +15,12 @@ namespace pyroscene::pipeline {
 struct UnmixJob {
     std::filesystem::path image;  ///< any raster with as many bands as the library knows wavelengths for
     std::optional<std::filesystem::path>
-        endmembers;  ///< CSV: wavelength_um (or wavelength_nm, or band), then a column per spectrum
+        endmembers;  ///< CSV: wavelength_um (or wavelength_nm, or band), then a column per spectrum; or ENVI .sli
+    std::optional<std::string> sensor;           ///< whose responses average finer spectra; default: as the image says
     std::optional<std::filesystem::path> truth;  ///< truth.tif of the same image: endmembers if none are given, and scores
     std::optional<std::filesystem::path> noise;  ///< CSV: wavelength_um or band, noise
     double pure_fraction = 0.98;                 ///< pixels of truth with so much of one class make its mean spectrum
+    std::optional<double> purest_fraction;       ///< classes without such pixels: their purest ones, if they hold so much
     analysis::UnmixSettings settings;
     std::filesystem::path output;  ///< GeoTIFF, a COG where the image lies on a map
     int threads = 0;               ///< 0 = all cores

@@ -1,7 +1,10 @@
 // `pyroscene unmix` as a user types it, on a real-looking image of its own making and on rendered ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "base/files.h"
 #include "gis/crs.h"
@@ -78,6 +81,94 @@ TEST(UnmixCommand, FindsTheFractionsOfAnyRaster) {
     EXPECT_NE(info.output.find("Origin = (700000"), std::string::npos) << info.output;
 }
 
+/// An ENVI library of kFire and kGrass, big-endian doubles behind a header, in nanometres from long to short.
+void write_envi_library(const ScratchFolder& scratch) {
+    std::string data(16, 'x'), wavelengths;
+    const auto append = [&](const std::vector<double>& spectrum) {
+        for (auto v = spectrum.rbegin(); v != spectrum.rend(); ++v) {
+            char raw[sizeof(double)];
+            std::memcpy(raw, &*v, sizeof raw);
+            if (std::endian::native == std::endian::little) std::reverse(raw, raw + sizeof raw);
+            data.append(raw, sizeof raw);
+        }
+    };
+    append(kFire);
+    append(kGrass);
+    write_text_file(scratch / "library.sli", data);
+    for (auto w = kLambda_um.rbegin(); w != kLambda_um.rend(); ++w)
+        wavelengths += (wavelengths.empty() ? "" : ",\n  ") + std::to_string(1e3 * *w);
+    write_text_file(scratch / "library.hdr",
+                    "ENVI\ndescription = {\n  Two spectra, a = b}\nsamples = 6\nlines = 2\nbands = 1\nheader offset = 16\n"
+                    "file type = ENVI Spectral Library\ndata type = 5\ninterleave = bsq\nbyte order = 1\n"
+                    "wavelength units = Nanometers\nspectra names = {fire, grass}\nwavelength = {\n  " +
+                        wavelengths + "}\n");
+}
+
+TEST(UnmixCommand, ReadsEnviLibraries) {
+    const ScratchFolder scratch;
+    write_mixture(scratch / "image.tif", true);
+    write_envi_library(scratch);
+    const auto command =
+        "unmix " + (scratch / "image.tif").string() + " --method fcls --endmembers " + scratch.path().string();
+    for (const std::string name : {"library.sli", "library.hdr"}) {
+        const auto result = pyroscene_cli(command + "/" + name + " -o " + (scratch / "f.tif").string());
+        ASSERT_EQ(result.exit_code, 0) << result.output;
+        const auto fractions = gis::read_image(scratch / "f.tif");
+        EXPECT_EQ(fractions.bands[1].description, "fraction of grass");
+        const auto fire = plane(fractions, 0);
+        for (std::size_t p = 0; p < 36; ++p) ASSERT_NEAR(fire[p], static_cast<double>(p) / 36.0, 1e-5) << p;
+    }
+    const auto header = read_text_file(scratch / "library.hdr");
+    const auto refused = [&](const std::string& what, const std::string& by) {
+        auto changed = header;
+        changed.replace(changed.find(what), what.size(), by);
+        write_text_file(scratch / "library.hdr", changed);
+        const auto result = pyroscene_cli(command + "/library.sli -o " + (scratch / "f.tif").string());
+        EXPECT_EQ(result.exit_code, 3) << result.output;
+        return result.output;
+    };
+    EXPECT_NE(refused("data type = 5", "data type = 6").find("data type 6 is not supported"), std::string::npos);
+    EXPECT_NE(refused("lines = 2", "lines = 3").find("6 wavelengths and 2 names for 6 samples and 3 lines"),
+              std::string::npos);
+    EXPECT_NE(refused("offset = 16", "offset = 17").find("112 bytes, the header asks for 113"), std::string::npos);
+    EXPECT_NE(refused("Nanometers", "Wavenumber").find("expected nanometers or micrometers"), std::string::npos);
+}
+
+// A straight line has over a symmetric response its value at the centre. The spike of 40 on a base of 0.1 um adds 0.5 * 0.1 * 40 / 2 = 1 to the
+// mean over the boxcar from 3 to 5 um of the WASP's mid-wave band, and nothing to that over the 0.05 um that the image tells.
+TEST(UnmixCommand, AveragesFineSpectraOverTheSensorsResponses) {
+    const ScratchFolder scratch;
+    gis::OutputRaster out;
+    out.cols = 5, out.rows = 1;
+    const std::vector<double> centre_um{1.35, 4.0, 9.5};
+    std::vector<float> pixels;
+    for (const double w : centre_um) {
+        out.bands.push_back({"band", "W m-2 sr-1 um-1", w, 0.05, {}});
+        for (int p = 0; p < 5; ++p)
+            pixels.push_back(static_cast<float>(0.25 * p * (w == 4.0 ? 41.0 : 10.0 * w) + (1.0 - 0.25 * p) * 20.0));
+    }
+    gis::write_geotiff(scratch / "image.tif", out, pixels);
+    // A line and a constant, the line with a spike between 3.2 and 3.3 um that only a wide response sees.
+    std::string text = "wavelength_um,line,flat\n";
+    for (const double w : {0.5, 3.19, 3.2, 3.25, 3.3, 3.31, 12.0})
+        text += std::to_string(w) + "," + std::to_string(10.0 * w + (w == 3.25 ? 40.0 : 0.0)) + ",20\n";
+    write_text_file(scratch / "fine.csv", text);
+    const auto line_at = [&](const std::string& options) {
+        const auto result = pyroscene_cli("unmix " + (scratch / "image.tif").string() + " --method ucls --endmembers " +
+                                          (scratch / "fine.csv").string() + options + " -o " + (scratch / "f.tif").string());
+        EXPECT_EQ(result.exit_code, 0) << result.output;
+        return gis::read_image(scratch / "f.tif");
+    };
+    const auto narrow = plane(line_at(""), 0), wide = plane(line_at(" --sensor wasp-thesis"), 0);
+    for (std::size_t p = 0; p < 5; ++p) EXPECT_NEAR(wide[p], 0.25 * static_cast<double>(p), 1e-5);
+    EXPECT_GT(std::abs(narrow[4] - 1.0), 1e-4);
+    const auto refused =
+        pyroscene_cli("unmix " + (scratch / "image.tif").string() + " --endmembers " + (scratch / "fine.csv").string() +
+                      " --sensor modis-terra -o " + (scratch / "f.tif").string());
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.output.find("sensor modis-terra has no band at"), std::string::npos) << refused.output;
+}
+
 TEST(UnmixCommand, TheThreadsDoNotMatter) {
     const ScratchFolder scratch;
     write_mixture(scratch / "image.tif", true);
@@ -106,6 +197,11 @@ TEST(UnmixCommand, TakesEndmembersFromTheTruthOfARenderedImage) {
     ASSERT_EQ(result.exit_code, 0) << result.output;
     EXPECT_NE(result.output.find("background"), std::string::npos) << result.output;
     EXPECT_NE(read_text_file(scratch / "f_endmembers.csv").find("wavelength_um"), std::string::npos);
+    EXPECT_EQ(result.output.find("flame"), std::string::npos) << "no pixel is all flame";
+    const auto purest = pyroscene_cli("unmix " + (acquisition / "radiance.tif").string() + " --method fcls --truth " +
+                                      (acquisition / "truth.tif").string() + " --pure 1 --purest 0.02 -o " + out + "/f.tif");
+    // Flame joins front, scar and background, which is one too many for three bands.
+    EXPECT_NE(purest.output.find("3 bands for 4 spectra"), std::string::npos) << purest.output;
     // In sensor geometry the geolocation arrays of the image are taken over.
     const auto info = run_command("gdalinfo " + out + "/f.tif");
     EXPECT_NE(info.output.find("X_DATASET="), std::string::npos) << info.output;
