@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "pipeline/detect_image.h"
+#include "pipeline/energy_of_frames.h"
 #include "pipeline/index_image.h"
 
 namespace pyroscene::cli {
@@ -128,11 +129,33 @@ void add_index(CLI::App& app, const bool& quiet) {
     });
 }
 
+void add_fre(CLI::App& app, const bool& quiet) {
+    struct Options {
+        std::vector<std::string> frames;
+        std::string output;
+    };
+    auto options = std::make_shared<Options>();
+    auto* sub = app.add_subcommand("fre", "fire radiative energy from maps of power at several moments");
+    sub->add_option("FRAMES", options->frames, "ortho_frp.tif of several acquisitions, or results of `frp` on maps")
+        ->required();
+    sub->add_option("-o,--output", options->output, "GeoTIFF; the table goes beside it")->required();
+    sub->footer("Example: pyroscene fre out/my_fire/*/ortho_frp.tif -o fre.tif");
+    sub->callback([options, &quiet] {
+        const auto steps = pipeline::energy_of_frames({{options->frames.begin(), options->frames.end()}, options->output});
+        if (quiet) return;
+        fmt::print("{:>20} {:>10} {:>12} {:>14}\n", "time", "s", "FRP MW", "FRE MJ");
+        for (const auto& s : steps)
+            fmt::print("{:>20} {:>10.0f} {:>12.6g} {:>14.6g}\n", s.time, s.time_s, s.power_MW, s.energy_MJ);
+        fmt::print("written: {}\n", options->output);
+    });
+}
+
 }  // namespace
 
 void add_detection_commands(CLI::App& app, const bool& quiet, const std::atomic<bool>& interrupted) {
     add_detect(app, quiet, interrupted);
     add_index(app, quiet);
+    add_fre(app, quiet);
 }
 
 }  // namespace pyroscene::cli

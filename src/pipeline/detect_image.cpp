@@ -1,7 +1,5 @@
 #include "pipeline/detect_image.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +17,7 @@
 #include "pipeline/hotspots.h"
 #include "pipeline/image_channels.h"
 #include "pipeline/index_image.h"
+#include "pipeline/pixel_match.h"
 #include "pipeline/sun_of_image.h"
 
 namespace pyroscene::pipeline {
@@ -55,53 +54,54 @@ std::vector<unsigned char> read_water(const std::filesystem::path& path, const g
     return water;
 }
 
-/// Averages blocks of a finer plane onto the image's pixels.
-std::vector<float> coarsened(const std::vector<float>& fine, int cols, int rows, int factor) {
-    std::vector<float> out;
-    out.reserve(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
-    const auto width = static_cast<std::size_t>(cols) * static_cast<std::size_t>(factor);
-    for (int r = 0; r < rows; ++r)
-        for (int c = 0; c < cols; ++c) {
-            double sum = 0.0;
-            for (int k = 0; k < factor * factor; ++k)
-                sum += static_cast<double>(fine[static_cast<std::size_t>(r * factor + k / factor) * width +
-                                                static_cast<std::size_t>(c * factor + k % factor)]);
-            out.push_back(static_cast<float>(sum / (factor * factor)));
+/// Reflectances near one wavelength on the image's pixels, from it or from another image of the same ground; empty when that one
+/// has no such band.
+class Reflectances {
+public:
+    Reflectances(ImageChannels& image, const Scene& scene, const SunOfImage& sun) : image_(image), scene_(scene), sun_(sun) {
+        if (!scene.job.reflective) return;
+        other_.emplace(*scene.job.reflective);
+        where_ = gis::pixel_positions(*scene.job.reflective);
+    }
+    [[nodiscard]] std::vector<float> plane(const BandWish& wish) {
+        ImageChannels& from = other_ ? *other_ : image_;
+        const int number = from.find(wish);
+        if (number == 0) return {};
+        Channel band = from.read(number, ImageChannels::Expect::RadianceOrReflectance);
+        if (other_) band.values = averaged_onto(scene_.where, where_, band.values);
+        return reflectances(band, sun_.zenith_deg, sun_.distance_AU);
+    }
+
+private:
+    ImageChannels& image_;
+    const Scene& scene_;
+    const SunOfImage& sun_;
+    std::optional<ImageChannels> other_;
+    gis::PixelPositions where_;
+};
+
+/// MODIS sees 4 um with a sensitive band that saturates early (22) and a coarse one (21): the first where it is not saturated.
+/// \return names of the bands
+std::string read_mir(ImageChannels& image, int number, Scene& scene) {
+    const int twin = scene.job.mir_band || scene.job.method != "mod14" ? 0 : image.twin(number);
+    Channel mir = image.read(std::min(number, twin > 0 ? twin : number), ImageChannels::Expect::RadianceOrTemperature);
+    std::string names = mir.name;
+    scene.mir_K = mir.temperatures_K();
+    if (twin > 0) {  // the later of the two is the sensitive one
+        const Channel sensitive = image.read(std::max(number, twin), ImageChannels::Expect::RadianceOrTemperature);
+        const auto fine_K = sensitive.temperatures_K();
+        names = sensitive.name + ", " + names;
+        for (std::size_t i = 0; i < scene.n; ++i) {
+            if (static_cast<double>(fine_K[i]) >= kSensitiveLimit_K - 0.5) continue;
+            scene.mir_K[i] = fine_K[i];
+            mir.values[i] = sensitive.values[i];
         }
-    return out;
-}
-
-/// Reflectances near one wavelength, from the image or a finer one of the same ground; empty when neither has the band.
-std::vector<float> reflectance_plane(ImageChannels& image, ImageChannels* other, const BandWish& wish, const SunOfImage& sun,
-                                     const gis::ImageInfo& like) {
-    ImageChannels& from = other != nullptr ? *other : image;
-    const int number = from.find(wish);
-    if (number == 0) return {};
-    Channel band = from.read(number, ImageChannels::Expect::RadianceOrReflectance);
-    const int factor = from.info().cols / like.cols;
-    if (factor < 1 || from.info().cols != factor * like.cols || from.info().rows != factor * like.rows)
-        throw input_error(band.name, fmt::format("{} x {} pixels, expected a whole multiple of {} x {}", from.info().cols,
-                                                 from.info().rows, like.cols, like.rows));
-    if (factor > 1) band.values = coarsened(band.values, like.cols, like.rows, factor);
-    return reflectances(band, sun.zenith_deg, sun.distance_AU);
-}
-
-/// MODIS sees 4 um with a sensitive band that saturates early and a coarse one: the first where it is not saturated.
-std::vector<float> mir_temperatures(ImageChannels& image, const DetectJob& job, int number, Scene& scene) {
-    Channel mir = image.read(number, ImageChannels::Expect::RadianceOrTemperature);
-    auto T_K = mir.temperatures_K();
+    }
     if (mir.unit != "K") {
         scene.mir_coefficient = mir.power_law_coefficient();
         scene.mir_radiance = std::move(mir.values);
     }
-    const int twin = job.mir_band || job.method != "mod14" ? 0 : image.twin(number);
-    if (twin == 0) return T_K;
-    // Of the two the later is band 22, the sensitive one; powers are taken from the other.
-    const Channel sensitive = image.read(std::max(number, twin), ImageChannels::Expect::RadianceOrTemperature);
-    const auto fine_K = sensitive.temperatures_K();
-    for (std::size_t i = 0; i < T_K.size(); ++i)
-        if (static_cast<double>(fine_K[i]) < kSensitiveLimit_K - 0.5) T_K[i] = fine_K[i];
-    return T_K;
+    return names;
 }
 
 /// Angles to the mirror image of the sun from the view angles of the geolocation file; empty when it has none.
@@ -128,18 +128,15 @@ Detection contextual(ImageChannels& image, Scene& scene, DetectReport& report) {
     const bool viirs = job.method == "viirs375";
     const auto& info = image.info();
     const int mir = image.require(job.mir_band, viirs ? kMirViirs : kMirModis), tir = image.require(job.tir_band, kThermal);
-    scene.mir_K = mir_temperatures(image, job, mir, scene);
-    scene.tir_K = image.read(tir, ImageChannels::Expect::RadianceOrTemperature).temperatures_K();
-    report.bands = fmt::format("{} and {}", info.bands[static_cast<std::size_t>(mir) - 1].description,
-                               info.bands[static_cast<std::size_t>(tir) - 1].description);
+    const std::string mir_names = read_mir(image, mir, scene);
+    const Channel thermal = image.read(tir, ImageChannels::Expect::RadianceOrTemperature);
+    scene.tir_K = thermal.temperatures_K();
+    report.bands = fmt::format("{} and {}", mir_names, thermal.name);
     const SunOfImage sun = sun_of_image(job.image, info, scene.where, job.sun_zenith_deg);
     scene.sun_zenith_deg = sun.zenith_deg;
-    std::optional<ImageChannels> other;
-    if (job.reflective) other.emplace(*job.reflective);
-    const auto plane = [&](const BandWish& wish) {
-        return reflectance_plane(image, other ? &*other : nullptr, wish, sun, info);
-    };
-    const auto red = plane(kRed), nir = plane(kNir), swir = plane(viirs ? kSwirViirs : kSwirModis);
+    Reflectances reflected(image, scene, sun);
+    const auto red = reflected.plane(kRed), nir = reflected.plane(kNir),
+               swir = reflected.plane(viirs ? kSwirViirs : kSwirModis);
     const auto glint = job.sun_zenith_deg ? std::vector<float>() : glint_angles(info, sun);
     std::vector<float> cloud_K;
     if (const int band = image.find(kCloud); band > 0 && !viirs)
@@ -169,7 +166,7 @@ Detection by_index(ImageChannels& image, Scene& scene, DetectReport& report) {
     // A pixel too dark for the index holds no fire.
     for (std::size_t i = 0; i < scene.n; ++i)
         if (found.result.fire[i] == FireClass::NotProcessed && made.dark[i] != 0) found.result.fire[i] = FireClass::Clear;
-    if (const int mir = image.find(kMirModis); mir > 0) scene.mir_K = mir_temperatures(image, job, mir, scene);
+    if (const int mir = image.find(kMirModis); mir > 0) read_mir(image, mir, scene);
     return std::move(found.result);
 }
 

@@ -16,15 +16,16 @@ struct DetectJob {
     std::string method = "mod14";           ///< mod14, viirs375, or an index of analysis::spectral_indices() that is of fire
     std::optional<std::string> sensor;      ///< whose responses the bands have; default: as the image says
     std::optional<int> mir_band, tir_band;  ///< from 1; default: nearest 3.96 (viirs375: 3.74) and 11 um
-    std::optional<std::filesystem::path> reflective;  ///< image with bands near 0.65, 0.86 and 2.1 um; default: this one
-    std::optional<std::filesystem::path> water;       ///< raster of the same size, 1 = water
-    std::optional<double> sun_zenith_deg;             ///< default: from time and place
-    std::optional<double> threshold;                  ///< of an index; default: from the scene
-    double deviations = 6.0;                          ///< of the scene, above which an index is fire
-    double least_radiance = 0.05;                     ///< W m-2 sr-1 um-1; darker pixels have no index
-    std::optional<std::filesystem::path> truth;       ///< default: truth.tif beside radiance.tif, if there
-    double least_area_m2 = 1.0;                       ///< of fire, from which on a pixel of the truth is one
-    std::filesystem::path output;                     ///< GeoTIFF; the other files go beside it
+    std::optional<std::filesystem::path>
+        reflective;  ///< image of the same ground with bands near 0.65, 0.86 and 2.1 um; default: this one
+    std::optional<std::filesystem::path> water;  ///< raster of the same size, 1 = water
+    std::optional<double> sun_zenith_deg;        ///< default: from time and place
+    std::optional<double> threshold;             ///< of an index; default: from the scene
+    double deviations = 6.0;                     ///< of the scene, above which an index is fire
+    double least_radiance = 0.05;                ///< W m-2 sr-1 um-1; darker pixels have no index
+    std::optional<std::filesystem::path> truth;  ///< default: truth.tif beside radiance.tif, if there
+    double least_area_m2 = 1.0;                  ///< of fire, from which on a pixel of the truth is one
+    std::filesystem::path output;                ///< GeoTIFF; the other files go beside it
     const std::atomic<bool>* cancelled = nullptr;
 };
 

@@ -5,15 +5,12 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "gis/pixel_positions.h"
 #include "pipeline/hotspots.h"
 #include "pipeline/image_channels.h"
-#include "radiometry/planck.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -36,8 +33,11 @@ struct Planes {
           fraction(n, kNaN),
           temperature_K(n, kNaN),
           frp_sd_MW(n, kNaN),
-          temperature_sd_K(n, kNaN) {}
+          temperature_sd_K(n, kNaN),
+          mir_background(n, kNaN),
+          tir_background(n, kNaN) {}
     std::vector<float> frp_W_m2, frp_MW, fraction, temperature_K, frp_sd_MW, temperature_sd_K;
+    std::vector<float> mir_background, tir_background;  ///< radiances of the surroundings
 };
 
 struct Scene {
@@ -50,8 +50,8 @@ struct Scene {
 /// The pixels' powers; returns how many have no solution.
 std::int64_t compute(const Scene& s, const Channel& mir, const Channel* tir, double a, Planes& out) {
     std::int64_t unsolved = 0;
-    std::optional<radiometry::BandThermometer> tir_thermometer;
-    if (tir != nullptr) tir_thermometer.emplace(tir->response);
+    std::optional<TwoBands> two_bands;
+    if (tir != nullptr) two_bands.emplace(mir, *tir);
     const auto far_mir = analysis::background_of_all(mir.values, s.fire);
     const auto far_tir = tir != nullptr ? analysis::background_of_all(tir->values, s.fire) : analysis::Background{};
     for (std::size_t i = 0; i < s.fire.size(); ++i) {
@@ -68,21 +68,15 @@ std::int64_t compute(const Scene& s, const Channel& mir, const Channel* tir, dou
             ++unsolved;
             continue;
         }
+        if (background.pixels > 0) out.mir_background[i] = static_cast<float>(background.mean);
         const double area_m2 = static_cast<double>(s.where.area_m2[i]), radiance = static_cast<double>(mir.values[i]);
         double frp = analysis::frp_mir_W_m2(radiance, s.job.subtract_background ? background.mean : 0.0, a, 1.0);
         if (tir != nullptr) {
             const auto tir_background = around(tir->values, far_tir);
-            const analysis::BispectralInput in{radiance,
-                                               static_cast<double>(tir->values[i]),
-                                               background.mean,
-                                               tir_background.mean,
-                                               tir_thermometer->temperature_K(tir_background.mean),
-                                               s.job.mir_noise,
-                                               s.job.tir_noise};
-            const auto found = tir_background.pixels == 0 ? analysis::Bispectral{}
-                                                          : analysis::bispectral(
-                                                                in, [&](double T) { return mir.black_body(T); },
-                                                                [&](double T) { return tir->black_body(T); });
+            if (tir_background.pixels > 0) out.tir_background[i] = static_cast<float>(tir_background.mean);
+            const double tir_mean = tir_background.pixels > 0 ? tir_background.mean : std::nan("");
+            const auto found = two_bands->solve({radiance, static_cast<double>(tir->values[i]), background.mean, tir_mean},
+                                                s.job.mir_noise, s.job.tir_noise);
             if (!found.solved) {
                 ++unsolved;
                 continue;
@@ -99,41 +93,13 @@ std::int64_t compute(const Scene& s, const Channel& mir, const Channel* tir, dou
     return unsolved;
 }
 
-/// Groups of fire pixels that touch by an edge or a corner, strongest first.
-std::vector<FireCluster> clusters(const Scene& s, const Planes& planes) {
-    const cv::Mat fire(s.where.lines, s.where.samples, CV_8UC1, const_cast<unsigned char*>(s.fire.data()));  // read only
-    cv::Mat labels;
-    const int count = cv::connectedComponents(fire, labels, 8, CV_32S);
-    std::vector<FireCluster> fires(static_cast<std::size_t>(count - 1));
-    std::vector<double> weights(fires.size(), 0.0);
-    for (std::size_t i = 0; i < s.fire.size(); ++i) {
-        if (s.fire[i] == 0) continue;
-        const auto label = static_cast<std::size_t>(labels.at<int>(static_cast<int>(i)) - 1);
-        FireCluster& of = fires[label];
-        const double power = std::isfinite(planes.frp_MW[i]) ? static_cast<double>(planes.frp_MW[i]) : 0.0;
-        const double weight = std::max(power, 1e-12);
-        ++of.pixels;
-        of.frp_MW += power;
-        if (std::isfinite(s.where.area_m2[i])) of.area_ha += static_cast<double>(s.where.area_m2[i]) * 1e-4;
-        of.lon_deg += weight * s.where.lon_deg[i];
-        of.lat_deg += weight * s.where.lat_deg[i];
-        weights[label] += weight;
-    }
-    for (std::size_t f = 0; f < fires.size(); ++f) {
-        fires[f].lon_deg /= weights[f];
-        fires[f].lat_deg /= weights[f];
-    }
-    std::stable_sort(fires.begin(), fires.end(),
-                     [](const FireCluster& a, const FireCluster& b) { return a.frp_MW > b.frp_MW; });
-    return fires;
-}
-
 void write_raster(const Scene& s, const gis::ImageInfo& info, const Planes& planes) {
     gis::OutputRaster out;
     out.cols = info.cols;
     out.rows = info.rows;
     out.like = s.job.image;
     out.synthetic = info.metadata.contains("synthetic");
+    out.acquisition_time = metadata_item(info, "ACQUISITION_DATE");
     out.metadata["SOURCE_IMAGE"] = s.job.image.filename().string();
     out.metadata["METHOD"] = s.job.bispectral ? "bispectral" : "MIR radiance";
     std::vector<float> pixels;
@@ -179,10 +145,26 @@ void write_tables(const Scene& s, const gis::ImageInfo& info, const Planes& plan
         table.rows.push_back(h);
     }
     write_hotspots_csv(beside(s.job, "_pixels.csv"), table);
-    std::string text = "fire,longitude,latitude,pixels,area_ha,frp_MW\n";
-    for (std::size_t f = 0; f < fires.size(); ++f)
-        text += fmt::format("{},{:.6f},{:.6f},{},{:.6g},{:.6g}\n", f + 1, fires[f].lon_deg, fires[f].lat_deg,
-                            fires[f].pixels, fires[f].area_ha, fires[f].frp_MW);
+    std::string text = "fire,longitude,latitude,pixels,area_ha,frp_MW";
+    if (s.job.bispectral)
+        text +=
+            ",mean_fire_area_m2,mean_fire_area_sd_m2,mean_temperature_K,mean_temperature_sd_K,mean_frp_MW,mean_frp_sd_MW,"
+            "correlation";
+    text += "\n";
+    for (std::size_t f = 0; f < fires.size(); ++f) {
+        const FireCluster& fire = fires[f];
+        text += fmt::format("{},{:.6f},{:.6f},{},{:.6g},{:.6g}", f + 1, fire.lon_deg, fire.lat_deg, fire.pixels,
+                            fire.area_ha, fire.frp_MW);
+        const auto& mean = fire.mean;
+        const double m2 = fire.area_ha * 1e4, MW_per_W_m2 = m2 * 1e-6;
+        if (s.job.bispectral && mean.solved)
+            text += fmt::format(",{:.6g},{:.4g},{:.6g},{:.4g},{:.6g},{:.4g},{:.4f}", mean.fraction * m2,
+                                mean.fraction_sd * m2, mean.temperature_K, mean.temperature_sd_K,
+                                mean.frp_W_m2 * MW_per_W_m2, mean.frp_sd_W_m2 * MW_per_W_m2, mean.correlation);
+        else if (s.job.bispectral)
+            text += ",,,,,,,";
+        text += "\n";
+    }
     write_text_file(beside(s.job, "_fires.csv"), text);
 }
 
@@ -203,7 +185,16 @@ FrpReport frp_image(const FrpJob& job) {
     report.unsolved = compute(scene, mir, tir ? &*tir : nullptr, report.coefficient_W_m2_sr_um_K4, planes);
     report.fire_pixels = std::count(fire.begin(), fire.end(), 1);
     for (const float power : planes.frp_MW) report.total_MW += std::isfinite(power) ? static_cast<double>(power) : 0.0;
-    report.fires = clusters(scene, planes);
+    ClusterInput groups{where, fire, planes.frp_MW};
+    if (tir) {
+        groups.mir = &mir;
+        groups.tir = &*tir;
+        groups.mir_background = &planes.mir_background;
+        groups.tir_background = &planes.tir_background;
+        groups.mir_noise = job.mir_noise;
+        groups.tir_noise = job.tir_noise;
+    }
+    report.fires = fire_clusters(groups);
     write_raster(scene, info, planes);
     std::optional<std::vector<float>> tir_K;
     if (tir) tir_K = tir->temperatures_K();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/frp.h"
+#include "pipeline/fire_clusters.h"
 
 namespace pyroscene::pipeline {
 
@@ -28,13 +28,6 @@ struct FrpJob {
     const std::atomic<bool>* cancelled = nullptr;
 };
 
-/// A group of touching fire pixels.
-struct FireCluster {
-    int pixels = 0;
-    double lon_deg = 0.0, lat_deg = 0.0;  ///< centre weighted with power
-    double frp_MW = 0.0, area_ha = 0.0;
-};
-
 struct FrpReport {
     std::string mir_band, tir_band;
     double coefficient_W_m2_sr_um_K4 = 0.0;
@@ -46,7 +39,8 @@ struct FrpReport {
 /// Writes
 ///   <output>              GeoTIFF: FRP per area, FRP of the pixel [MW], fire mask; bispectral: fraction, temperature and their errors
 ///   <output>_pixels.csv   one row per fire pixel, columns in the order of NASA FIRMS
-///   <output>_fires.csv    one row per group of touching fire pixels
+///   <output>_fires.csv    one row per group of touching fire pixels; bispectral: also the solution of the group's mean radiances with
+///                         standard deviations and the correlation of fraction and temperature
 /// The background of a pixel is the mean of its surroundings (analysis::background_around), or of all pixels without fire where a
 /// fire is too large for that.
 /// Throws an input error: no suitable band, no place on the Earth, unit of the band that is no spectral radiance.

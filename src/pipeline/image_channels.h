@@ -36,7 +36,7 @@ struct BandWish {
 /// The bands of any raster with wavelength metadata, found by wavelength, with the spectral responses of a sensor.
 class ImageChannels {
 public:
-    /// \param sensor  whose responses the bands have; default: the one the image names, else boxcars of the bands' FWHM
+    /// \param sensor  whose responses the bands have; default: the shipped one that the image names, else boxcars of the bands' FWHM
     explicit ImageChannels(const std::filesystem::path& image, const std::optional<std::string>& sensor = {});
 
     [[nodiscard]] const gis::ImageInfo& info() const noexcept { return image_.info(); }

@@ -183,5 +183,47 @@ TEST(DetectCommand, RefusesWhatItCannotUse) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "after_mod14.tif"));
 }
 
+// Rendered: fires from 60 m2 to 2 ha through the point spread and noise of the instruments, ground as bright as sun glint, soil of
+// 330 K, edges of smoke.
+class PlantedFires : public testing::Test {
+protected:
+    /// Runs the scenario and a detector, and returns its score.
+    nlohmann::json score(const std::string& file, const std::string& acquisitions, const std::string& detect) {
+        const auto run = pyroscene_cli("run -q " + (source_folder() / "scenarios/planted_fires" / file).string() +
+                                       acquisitions + " -o " + scratch.path().string());
+        EXPECT_EQ(run.exit_code, 0) << run.output;
+        const auto result = pyroscene_cli("detect -q " + detect + " -o " + (scratch / "f.tif").string());
+        EXPECT_EQ(result.exit_code, 0) << result.output;
+        return nlohmann::json::parse(read_text_file(scratch / "f_scores.json"));
+    }
+    /// All fires above 100 m2 and no others.
+    static void expect_found(const nlohmann::json& score) {
+        EXPECT_EQ(score["false_alarms"], 0);
+        EXPECT_GT(score["background_pixels"], 2000);
+        int large = 0;
+        for (const auto& bin : score["by_area_m2"]) {
+            if (bin["from"].get<double>() < 100.0) continue;
+            EXPECT_EQ(bin["found"], bin["true_pixels"]) << bin.dump();
+            large += bin["true_pixels"].get<int>();
+        }
+        EXPECT_GT(large, 20);
+        EXPECT_EQ(score["by_area_m2"][0]["found"], 0);  // below 10 m2
+    }
+    ScratchFolder scratch;
+};
+
+TEST_F(PlantedFires, AreFoundByModis) {
+    expect_found(score(
+        "scenario.yaml", " --acquisition modis --acquisition modis_250m",
+        (scratch / "modis/radiance.tif").string() + " --reflective " + (scratch / "modis_250m/radiance.tif").string()));
+}
+
+TEST_F(PlantedFires, AreFoundByViirsUnderSmoke) {
+    const auto found =
+        score("smoke.yaml", " --acquisition viirs", (scratch / "viirs/radiance.tif").string() + " --method viirs375");
+    expect_found(found);
+    EXPECT_GT(found["by_area_m2"][1]["found"], 10);  // from 29 m2 on
+}
+
 }  // namespace
 }  // namespace pyroscene::test

@@ -1,4 +1,5 @@
 #include "analysis/frp.h"
+#include "analysis/fire_energy.h"
 
 #include <gtest/gtest.h>
 
@@ -141,6 +142,22 @@ TEST(FirePixels, FindsContrastAndLeavesWarmGroundAlone) {
     const auto around = background_around(T_K, fire, kSamples, kLines, 30, 20);
     EXPECT_EQ(around.pixels, 16);
     EXPECT_NEAR(around.mean, 300.5, 0.3);
+}
+
+TEST(FireEnergy, IsTheTimeIntegralOfPower) {
+    // 10 MW for 60 s, then falling to nothing in 120 s: 600 + 600 MJ.
+    const std::vector<double> time_s{0.0, 60.0, 180.0}, power_MW{10.0, 10.0, 0.0};
+    const auto energy = fire_radiative_energy(time_s, power_MW);
+    EXPECT_EQ(energy, (std::vector<double>{0.0, 600.0, 1200.0}));
+    EnergyMap map;
+    const float none = std::nanf("");
+    map.add(0.0, std::vector<float>{10.0F, none});
+    map.add(60.0, std::vector<float>{10.0F, 4.0F});
+    map.add(180.0, std::vector<float>{none, 6.0F});
+    EXPECT_DOUBLE_EQ(map.energy()[0], 1200.0);
+    EXPECT_DOUBLE_EQ(map.energy()[1], 0.5 * 60.0 * 4.0 + 0.5 * 120.0 * 10.0);
+    EXPECT_FLOAT_EQ(map.time_of_peak_s()[0], 0.0F);
+    EXPECT_FLOAT_EQ(map.time_of_peak_s()[1], 180.0F);
 }
 
 }  // namespace
