@@ -21,6 +21,7 @@ struct DetectionScore {
     int found = 0;         ///< of these
     int detected = 0;      ///< pixels called fire
     int false_alarms = 0;  ///< of these, without any fire
+    int beside = 0;        ///< of these, with fire within two pixels: its light on the ground, or the point spread
     int background = 0;    ///< pixels without any fire
     std::vector<ScoreBin> by_frp_MW, by_area_m2;
 
@@ -34,9 +35,10 @@ struct DetectionScore {
 
 /// \param called      1 = called fire, 0 = not, per pixel
 /// \param fire_area_m2, frp_MW  of the truth, per pixel; NaN = pixel not rendered, left out
+/// \param samples  pixels of a line
 /// \param least_area_m2  from which on a pixel counts as a true fire; those with less are neither fire nor false alarm
 /// Bins are decades, 0.01 MW to 10^4 MW and 1 m2 to 10^6 m2; the first and the last one are open.
 DetectionScore score_detection(std::span<const unsigned char> called, std::span<const float> fire_area_m2,
-                               std::span<const float> frp_MW, double least_area_m2);
+                               std::span<const float> frp_MW, int samples, double least_area_m2);
 
 }  // namespace pyroscene::analysis

@@ -10,90 +10,73 @@ namespace {
 using Kind = SpectralIndex::Kind;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-// Tolerances take in the bands of the instruments for which an index was defined. Neutral potassium shines at 766.5 and
-// 769.9 nm: the band that holds it lies within 5 nm of 768 nm, its neighbours reach neither the line nor the next absorption.
-constexpr std::array<SpectralIndex, 8> kIndices{{
-    {"ndvi",
-     Kind::NormalisedDifference,
-     2,
-     {{{0.86, 0.06}, {0.65, 0.04}}},
-     0.0,
-     true,
-     false,
-     0.0,
-     "(R0.86 - R0.65) / (R0.86 + R0.65)",
-     "Rouse et al. 1974; thesis 3.2.1 (ii)"},
-    {"nbr",
-     Kind::NormalisedDifference,
-     2,
-     {{{0.86, 0.06}, {2.2, 0.15}}},
-     0.0,
-     true,
-     false,
-     0.0,
-     "(R0.86 - R2.2) / (R0.86 + R2.2)",
-     "Key and Benson 2006"},
-    {"hfdi",
-     Kind::NormalisedDifference,
-     2,
-     {{{2.429, 0.02}, {2.061, 0.02}}},
-     0.0,
-     false,
-     true,
-     0.02,
-     "(L2.429 - L2.061) / (L2.429 + L2.061)",
-     "Dennison and Roberts 2009"},
-    {"co2",
-     Kind::Absorption,
-     3,
-     {{{2.010, 0.006}, {1.990, 0.006}, {2.040, 0.006}}},
-     0.666,
-     false,
-     true,
-     0.02,
-     "L2.010 / (0.666 L1.990 + 0.334 L2.040)",
-     "Dennison 2006"},
-    {"k-line",
-     Kind::Contrast,
-     3,
-     {{{0.768, 0.0052}, {0.7515, 0.006}, {0.7815, 0.006}}},
-     0.0,
-     false,
-     true,
-     0.02,
-     "(L0.768 - C) / C, C between L0.752 and L0.782",
-     "Vodacek et al. 2002; continuum through both sides"},
-    {"akbd",
-     Kind::Difference,
-     2,
-     {{{0.769, 0.0052}, {0.780, 0.006}}},
-     0.0,
-     false,
-     true,
-     0.5,
-     "L0.769 - L0.780",
-     "Amici et al. 2011"},
-    {"aviris-k",
-     Kind::Ratio,
-     2,
-     {{{0.75912, 0.006}, {0.74957, 0.006}}},
-     0.0,
-     false,
-     true,
-     0.02,
-     "L0.75912 / L0.74957",
-     "thesis fig 3.1 (bands 44 and 43)"},
-    {"aviris-co2",
-     Kind::Difference,
-     2,
-     {{{1.95137, 0.006}, {1.91115, 0.006}}},
-     0.0,
-     false,
-     true,
-     0.5,
-     "L1.95137 - L1.91115",
-     "thesis fig 3.2 (bands 168 and 164)"},
-}};
+// Tolerances take in the bands of the instruments for which an index was defined. Neutral potassium shines at 766.5 and 769.9 nm: the
+// band that holds it lies within 5 nm of 768 nm, its neighbours reach neither the line nor the next absorption.
+// Least values: no ground of data/optical that is lit by the sun reaches an HFDI of -0.15 (char comes near it); a line of emission
+// rises above its continuum.
+constexpr std::array<SpectralIndex, 8> kIndices{{{.name = "ndvi",
+                                                  .kind = Kind::NormalisedDifference,
+                                                  .band = {{{0.86, 0.06}, {0.65, 0.04}}},
+                                                  .reflectance = true,
+                                                  .formula = "(R0.86 - R0.65) / (R0.86 + R0.65)",
+                                                  .source = "Rouse et al. 1974; thesis 3.2.1 (ii)"},
+                                                 {.name = "nbr",
+                                                  .kind = Kind::NormalisedDifference,
+                                                  .band = {{{0.86, 0.06}, {2.2, 0.15}}},
+                                                  .reflectance = true,
+                                                  .formula = "(R0.86 - R2.2) / (R0.86 + R2.2)",
+                                                  .source = "Key and Benson 2006"},
+                                                 {.name = "hfdi",
+                                                  .kind = Kind::NormalisedDifference,
+                                                  .band = {{{2.429, 0.02}, {2.061, 0.02}}},
+                                                  .of_fire = true,
+                                                  .least_excess = 0.02,
+                                                  .least_value = -0.15,
+                                                  .formula = "(L2.429 - L2.061) / (L2.429 + L2.061)",
+                                                  .source = "Dennison and Roberts 2009"},
+                                                 {.name = "co2",
+                                                  .kind = Kind::Absorption,
+                                                  .bands = 3,
+                                                  .band = {{{2.010, 0.006}, {1.990, 0.006}, {2.040, 0.006}}},
+                                                  .share = 0.666,
+                                                  .of_fire = true,
+                                                  .least_excess = 0.04,
+                                                  .least_value = 0.0,
+                                                  .formula = "L2.010 / (0.666 L1.990 + 0.334 L2.040)",
+                                                  .source = "Dennison 2006"},
+                                                 {.name = "k-line",
+                                                  .kind = Kind::Contrast,
+                                                  .bands = 3,
+                                                  .band = {{{0.768, 0.0052}, {0.7515, 0.006}, {0.7815, 0.006}}},
+                                                  .of_fire = true,
+                                                  .least_excess = 0.02,
+                                                  .least_value = 0.0,
+                                                  .formula = "(L0.768 - C) / C, C between L0.752 and L0.782",
+                                                  .source = "Vodacek et al. 2002; continuum through both sides"},
+                                                 {.name = "akbd",
+                                                  .kind = Kind::Difference,
+                                                  .band = {{{0.769, 0.0052}, {0.780, 0.006}}},
+                                                  .of_fire = true,
+                                                  .least_excess = 0.5,
+                                                  .least_value = 0.0,
+                                                  .formula = "L0.769 - L0.780",
+                                                  .source = "Amici et al. 2011"},
+                                                 {.name = "aviris-k",
+                                                  .kind = Kind::Ratio,
+                                                  .band = {{{0.75912, 0.006}, {0.74957, 0.006}}},
+                                                  .of_fire = true,
+                                                  .least_excess = 0.02,
+                                                  .least_value = 0.0,
+                                                  .formula = "L0.75912 / L0.74957",
+                                                  .source = "thesis fig 3.1 (bands 44 and 43)"},
+                                                 {.name = "aviris-co2",
+                                                  .kind = Kind::Difference,
+                                                  .band = {{{1.95137, 0.006}, {1.91115, 0.006}}},
+                                                  .of_fire = true,
+                                                  .least_excess = 0.5,
+                                                  .least_value = 0.0,
+                                                  .formula = "L1.95137 - L1.91115",
+                                                  .source = "thesis fig 3.2 (bands 168 and 164)"}}};
 
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 constexpr std::array<SeverityClass, 7> kSeverity{{{"enhanced regrowth, high", -0.251},
@@ -160,11 +143,14 @@ RobustStatistics robust_statistics(std::span<const float> values) {
     return {median, kNormal * median_of(valid)};
 }
 
-IndexDetection detect_by_index(std::span<const float> values, const SpectralIndex& index,
-                               const std::optional<double>& threshold, double deviations) {
+IndexDetection detect_by_index(std::span<const float> values, std::span<const unsigned char> dark,
+                               const SpectralIndex& index, const std::optional<double>& threshold, double deviations) {
     IndexDetection out;
     out.scene = robust_statistics(values);
-    out.threshold = threshold.value_or(out.scene.median + std::max(deviations * out.scene.deviation, index.least_excess));
+    const auto lit = std::count_if(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+    if (std::count(dark.begin(), dark.end(), 1) > lit) out.scene = {index.least_value, 0.0};
+    const double by_scene = out.scene.median + std::max(deviations * out.scene.deviation, index.least_excess);
+    out.threshold = threshold.value_or(std::max(by_scene, index.least_value));
     out.result.fire.assign(values.size(), FireClass::Clear);
     out.result.confidence_percent.assign(values.size(), kNaN);
     out.result.background_mir_K.assign(values.size(), kNaN);
@@ -172,7 +158,7 @@ IndexDetection detect_by_index(std::span<const float> values, const SpectralInde
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double value = static_cast<double>(values[i]);
         if (!std::isfinite(value)) {
-            out.result.fire[i] = FireClass::NotProcessed;
+            if (dark.empty() || dark[i] == 0) out.result.fire[i] = FireClass::NotProcessed;
             continue;
         }
         if (!(value > out.threshold)) continue;

@@ -23,7 +23,7 @@ struct SpectralIndex {
     struct Band {
         double best_um = 0.0, tolerance_um = 0.0;
     };
-    std::string_view name;
+    std::string_view name{};
     Kind kind = Kind::Ratio;
     int bands = 2;
     std::array<Band, 3> band{};
@@ -31,7 +31,8 @@ struct SpectralIndex {
     bool reflectance = false;   ///< of reflectances; else of radiances
     bool of_fire = false;       ///< fires raise it: detect_by_index() is meant for it
     double least_excess = 0.0;  ///< of a fire above the scene, in the unit of the index, whatever the scatter
-    std::string_view formula, source;
+    double least_value = -1e9;  ///< no fire lies below, whatever the scene
+    std::string_view formula{}, source{};
 };
 
 /// All there are: ndvi, nbr (reflectances); hfdi, co2, k-line, akbd, aviris-k, aviris-co2 (radiances, fire).
@@ -51,14 +52,16 @@ struct RobustStatistics {
 RobustStatistics robust_statistics(std::span<const float> values);
 
 /// Fire where the index lies above `threshold`; nominal, and high above twice its distance from the median. Confidence 50 to 100 %.
-/// Without a threshold: median + max(`deviations` x scatter, least excess of the index). NaN: not processed.
+/// Without a threshold: median + max(`deviations` x scatter, least excess of the index), but not below its least value. Where more
+/// than half of the pixels are dark the others are no background: least value + least excess. NaN: not processed, or dark.
+/// \param dark  1 = too dark for an index, per pixel; empty = none
 struct IndexDetection {
     Detection result;
     RobustStatistics scene;
     double threshold = 0.0;
 };
-IndexDetection detect_by_index(std::span<const float> values, const SpectralIndex& index,
-                               const std::optional<double>& threshold, double deviations);
+IndexDetection detect_by_index(std::span<const float> values, std::span<const unsigned char> dark,
+                               const SpectralIndex& index, const std::optional<double>& threshold, double deviations);
 
 /// Burn severity from dNBR = NBR before - NBR after: Key and Benson 2006 (FIREMON, table LA-1). Class 0 = no data.
 struct SeverityClass {

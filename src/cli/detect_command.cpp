@@ -39,9 +39,10 @@ void print(const pipeline::DetectJob& job, const pipeline::DetectReport& r) {
     if (r.score) {
         const auto& s = *r.score;
         fmt::print(
-            "truth: {} of {} fire pixels found (omission {:.3f}), {} of {} detections false (commission {:.3f}), {} "
-            "pixels without fire\n",
-            s.found, s.true_pixels, s.omission(), s.false_alarms, s.detected, s.commission(), s.background);
+            "truth: {} of {} fire pixels found (omission {:.3f}); of {} detections {} without fire (commission {:.3f}), {} "
+            "of "
+            "them within 2 pixels of one; {} pixels without fire\n",
+            s.found, s.true_pixels, s.omission(), s.detected, s.false_alarms, s.commission(), s.beside, s.background);
         print_bins("MW", s.by_frp_MW);
         print_bins("m2", s.by_area_m2);
     }

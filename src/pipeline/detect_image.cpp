@@ -6,15 +6,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/frp.h"
 #include "analysis/spectral_index.h"
-#include "base/constants.h"
 #include "base/error.h"
-#include "base/files.h"
 #include "gis/pixel_positions.h"
-#include "pipeline/hotspots.h"
+#include "pipeline/detection_files.h"
 #include "pipeline/image_channels.h"
 #include "pipeline/index_image.h"
 #include "pipeline/pixel_match.h"
@@ -32,17 +29,7 @@ constexpr BandWish kMirModis{3.96, 3.4, 4.2, "MIR"}, kMirViirs{3.74, 3.4, 4.2, "
     kNir{0.86, 0.80, 0.90, "near infrared"}, kSwirModis{2.13, 2.05, 2.35, "SWIR"}, kSwirViirs{1.61, 1.55, 1.75, "SWIR"};
 constexpr double kSensitiveLimit_K = 331.0;  ///< where MODIS band 22 saturates
 
-/// Everything that is known of the image's pixels besides the planes that are tested.
-struct Scene {
-    const DetectJob& job;
-    gis::PixelPositions where;
-    std::size_t n = 0;
-    std::vector<float> mir_K{}, tir_K{}, mir_radiance{};  ///< empty = no such band
-    double mir_coefficient = 0.0;
-    std::vector<float> sun_zenith_deg{};  ///< empty = not known
-    std::vector<float> tested{};          ///< index, empty = mir_K
-    std::string tested_name = "MIR brightness temperature", tested_unit = "K";
-};
+using Scene = DetectionScene;
 
 std::vector<unsigned char> read_water(const std::filesystem::path& path, const gis::ImageInfo& like) {
     gis::ImageStream file(path);
@@ -161,11 +148,8 @@ Detection by_index(ImageChannels& image, Scene& scene, DetectReport& report) {
     scene.tested = std::move(made.values);
     scene.tested_name = job.method;
     scene.tested_unit = index.kind == analysis::SpectralIndex::Kind::Difference ? "W m-2 sr-1 um-1" : "1";
-    auto found = analysis::detect_by_index(scene.tested, index, job.threshold, job.deviations);
+    auto found = analysis::detect_by_index(scene.tested, made.dark, index, job.threshold, job.deviations);
     report.threshold = found.threshold;
-    // A pixel too dark for the index holds no fire.
-    for (std::size_t i = 0; i < scene.n; ++i)
-        if (found.result.fire[i] == FireClass::NotProcessed && made.dark[i] != 0) found.result.fire[i] = FireClass::Clear;
     if (const int mir = image.find(kMirModis); mir > 0) read_mir(image, mir, scene);
     return std::move(found.result);
 }
@@ -187,144 +171,6 @@ std::vector<float> powers(const Scene& scene, const std::vector<unsigned char>& 
             static_cast<double>(scene.where.area_m2[i]) * 1e-6);
     }
     return power;
-}
-
-std::filesystem::path beside(const DetectJob& job, const std::string& ending) {
-    auto path = job.output;
-    return path.replace_filename(job.output.stem().string() + ending);
-}
-
-void write_rasters(const Scene& scene, const gis::ImageInfo& info, const Detection& found,
-                   const std::vector<float>& power_MW) {
-    gis::OutputRaster out;
-    out.cols = info.cols;
-    out.rows = info.rows;
-    out.like = scene.job.image;
-    out.synthetic = info.metadata.contains("synthetic");
-    out.metadata["SOURCE_IMAGE"] = scene.job.image.filename().string();
-    out.metadata["METHOD"] = scene.job.method;
-    const auto write = [&](const std::filesystem::path& path, const std::vector<float>& pixels) {
-        if (info.on_map)
-            gis::write_cog(path, out, pixels);
-        else
-            gis::write_geotiff(path, out, pixels);
-    };
-    auto layers = out;
-    std::vector<float> pixels;
-    const auto add = [&](const std::string& name, const std::string& unit, const std::vector<float>& plane) {
-        layers.bands.push_back({name, unit, {}, {}, {}});
-        pixels.insert(pixels.end(), plane.begin(), plane.end());
-    };
-    add("confidence", "%", found.confidence_percent);
-    add(scene.tested_name, scene.tested_unit, scene.tested.empty() ? scene.mir_K : scene.tested);
-    add("MIR temperature of the surroundings", "K", found.background_mir_K);
-    add("fire radiative power of the pixel", "MW", power_MW);
-    std::swap(out, layers);
-    write(beside(scene.job, "_layers.tif"), pixels);
-    std::swap(out, layers);
-    out.classes = true;
-    out.class_names = {"not processed",
-                       "",
-                       "sun glint",
-                       "water",
-                       "cloud",
-                       "no fire",
-                       "unknown",
-                       "fire, low confidence",
-                       "fire, nominal confidence",
-                       "fire, high confidence"};
-    out.bands = {{"fire class", "", {}, {}, {}}};
-    std::vector<float> classes;
-    for (const FireClass c : found.fire) classes.push_back(static_cast<float>(c));
-    write(scene.job.output, classes);
-}
-
-void write_hotspots(const Scene& scene, const gis::ImageInfo& info, const Detection& found,
-                    const std::vector<float>& power_MW) {
-    HotspotTable table;
-    const auto when = date_and_clock(metadata_item(info, "ACQUISITION_DATE"));
-    table.date = when.date;
-    table.clock = when.clock;
-    table.satellite = table.instrument = metadata_item(info, "SENSOR");
-    table.synthetic = info.metadata.contains("synthetic");
-    table.version = table.synthetic ? "synthetic" : "";
-    table.viirs_names = scene.job.method == "viirs375";
-    const auto value = [](const std::vector<float>& plane, std::size_t i) {
-        return plane.empty() ? static_cast<double>(kNaN) : static_cast<double>(plane[i]);
-    };
-    for (std::size_t i = 0; i < scene.n; ++i) {
-        if (!analysis::is_fire(found.fire[i]) || !std::isfinite(scene.where.lon_deg[i])) continue;
-        Hotspot h{scene.where.lat_deg[i], scene.where.lon_deg[i], value(scene.mir_K, i), value(scene.tir_K, i)};
-        h.scan_km = static_cast<double>(scene.where.width_m[i]) * 1e-3;
-        h.track_km = static_cast<double>(scene.where.height_m[i]) * 1e-3;
-        h.frp_MW = value(power_MW, i);
-        h.confidence = table.viirs_names ? std::string(1, "lnh"[static_cast<std::size_t>(found.fire[i]) - 7])
-                                         : fmt::format("{:.0f}", found.confidence_percent[i]);
-        constexpr float kDay_deg = 85.0F;
-        if (!scene.sun_zenith_deg.empty()) h.day_or_night = scene.sun_zenith_deg[i] < kDay_deg ? 'D' : 'N';
-        table.rows.push_back(std::move(h));
-    }
-    write_hotspots_csv(beside(scene.job, "_hotspots.csv"), table);
-    const std::vector<gis::VectorLayer> layers{hotspot_layer(table)};
-    gis::write_vector(beside(scene.job, "_hotspots.geojson"), layers);
-    gis::write_vector(beside(scene.job, "_hotspots.gpkg"), layers);
-}
-
-/// truth.tif beside radiance.tif, truth_ir.tif beside radiance_ir.tif.
-std::optional<std::filesystem::path> truth_of(const DetectJob& job) {
-    if (job.truth) return job.truth;
-    constexpr std::string_view kRadiance = "radiance";
-    const std::string name = job.image.filename().string();
-    if (!name.starts_with(kRadiance)) return std::nullopt;
-    const auto path = job.image.parent_path() / ("truth" + name.substr(kRadiance.size()));
-    return std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
-}
-
-analysis::DetectionScore score(const Scene& scene, const std::filesystem::path& path, const gis::ImageInfo& info,
-                               const std::vector<unsigned char>& fire) {
-    gis::ImageStream truth(path);
-    if (truth.info().cols != info.cols || truth.info().rows != info.rows)
-        throw input_error(path.string(), fmt::format("{} x {} pixels, the image has {} x {}", truth.info().cols,
-                                                     truth.info().rows, info.cols, info.rows));
-    const auto plane = [&](const std::string& name) {
-        for (std::size_t b = 0; b < truth.info().bands.size(); ++b)
-            if (truth.info().bands[b].description == name) return truth.read_band(static_cast<int>(b) + 1);
-        throw input_error(path.string(), "no band named " + name);
-    };
-    auto area_m2 = plane("fraction_flame");
-    const auto front = plane("fraction_front");
-    auto power_MW = plane("fire_radiant_exitance");
-    for (std::size_t i = 0; i < area_m2.size(); ++i) {
-        area_m2[i] = (area_m2[i] + front[i]) * scene.where.area_m2[i];
-        power_MW[i] *= scene.where.area_m2[i] * 1e-6F;
-    }
-    return analysis::score_detection(fire, area_m2, power_MW, scene.job.least_area_m2);
-}
-
-void write_score(const DetectJob& job, const analysis::DetectionScore& s) {
-    using Json = nlohmann::ordered_json;
-    const auto bins = [](const std::vector<analysis::ScoreBin>& of) {
-        Json out = Json::array();
-        for (const auto& b : of)
-            out.push_back({{"from", b.lower},
-                           {"to", std::isfinite(b.upper) ? Json(b.upper) : Json(nullptr)},
-                           {"true_pixels", b.true_pixels},
-                           {"found", b.found},
-                           {"omission", b.true_pixels > 0 ? Json(b.omission()) : Json(nullptr)}});
-        return out;
-    };
-    const Json json = {{"method", job.method},
-                       {"least_area_m2", job.least_area_m2},
-                       {"true_pixels", s.true_pixels},
-                       {"found", s.found},
-                       {"omission", s.omission()},
-                       {"detected", s.detected},
-                       {"false_alarms", s.false_alarms},
-                       {"commission", s.commission()},
-                       {"background_pixels", s.background},
-                       {"by_frp_MW", bins(s.by_frp_MW)},
-                       {"by_area_m2", bins(s.by_area_m2)}};
-    write_text_file(beside(job, "_scores.json"), json.dump(2) + "\n");
 }
 
 void count_classes(const Detection& found, DetectReport& report) {
@@ -362,12 +208,8 @@ DetectReport detect_image(const DetectJob& job) {
     const auto power_MW = powers(scene, fire);
     report.total_MW = scene.mir_radiance.empty() ? std::nan("") : 0.0;
     for (const float power : power_MW) report.total_MW += std::isfinite(power) ? static_cast<double>(power) : 0.0;
-    write_rasters(scene, image.info(), found, power_MW);
-    write_hotspots(scene, image.info(), found, power_MW);
-    if (const auto truth = truth_of(job)) {
-        report.score = score(scene, *truth, image.info(), fire);
-        write_score(job, *report.score);
-    }
+    write_detection(scene, image.info(), found, power_MW);
+    report.score = score_against_truth(scene, image.info(), fire);
     return report;
 }
 

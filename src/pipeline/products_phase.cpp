@@ -14,6 +14,7 @@
 #include "gis/raster_output.h"
 #include "pipeline/fronts.h"
 #include "pipeline/incident_map.h"
+#include "pipeline/qgis_style.h"
 #include "pipeline/quicklook.h"
 #include "pipeline/stac.h"
 #include "pipeline/state_file.h"
@@ -163,6 +164,23 @@ void write_sensor_geometry(const ProductJob& job, const Rendered& r, const Produ
     gis::write_geotiff(job.files.file(product.stem), out, std::span<const float>(product.pixels));
 }
 
+/// How QGIS shows an ortho product: ranges that are the same for every image of the band.
+RasterStyle style_of(const Product& product, double gsd_m) {
+    constexpr double kBest_um = 3.96, kCoarse_m = 200.0;
+    std::size_t best = 0;
+    const auto off_um = [&](std::size_t k) { return std::abs(product.bands[k].wavelength_um.value_or(0.0) - kBest_um); };
+    for (std::size_t k = 1; k < product.bands.size(); ++k)
+        if (off_um(k) < off_um(best)) best = k;
+    const int band = static_cast<int>(best) + 1;
+    const auto& unit = product.bands[best].unit;
+    if (product.stem == "radiance")
+        return {band, unit, radiance_colours(product.bands[best].wavelength_um.value_or(kBest_um))};
+    if (product.stem == "brightness_temperature") return {band, unit, inferno(300.0, 1200.0)};
+    if (product.stem == "fractions") return {2, "", inferno(0.0, 1.0)};  // of front
+    // Power: of the pixel where pixels are as large as those of fire satellites, else per area.
+    return gsd_m >= kCoarse_m ? RasterStyle{2, "MW", power_ladder(250.0)} : RasterStyle{1, "W m-2", power_ladder(5e4)};
+}
+
 void write_ortho(const ProductJob& job, const Rendered& r, const Product& product, const analysis::OrthoLookup& lookup) {
     auto out = raster_of(job, product);
     out.grid = lookup.grid;
@@ -176,6 +194,7 @@ void write_ortho(const ProductJob& job, const Rendered& r, const Product& produc
         pixels.insert(pixels.end(), plane.begin(), plane.end());
     }
     gis::write_cog(job.files.file("ortho_" + product.stem), out, std::span<const float>(pixels));
+    write_qgis_style(job.files.file("ortho_" + product.stem), style_of(product, r.gsd_m));
 }
 
 /// Where each map cell appears in the image; cells that terrain hides from the camera appear nowhere.

@@ -53,11 +53,23 @@ Json asset(const ProductJob& job, const std::filesystem::path& file) {
     } else if (extension == ".png") {
         a["type"] = "image/png";
         a["roles"] = Json::array({"overview"});
+    } else if (extension == ".qml") {
+        a["type"] = "application/xml";
+        a["roles"] = Json::array({"metadata"});
     } else {
-        a["type"] = "application/geo+json";
+        a["type"] = extension == ".gpkg"  ? "application/geopackage+sqlite3"
+                    : extension == ".kmz" ? "application/vnd.google-earth.kmz"
+                                          : "application/geo+json";
         a["roles"] = Json::array({"data"});
     }
     return a;
+}
+
+/// Name of an asset: that of its file, with what it is where several files share a name.
+std::string asset_key(const std::filesystem::path& file) {
+    const auto extension = file.extension().string();
+    if (extension == ".qml") return file.stem().string() + "_style";
+    return file.stem().string() + (extension == ".kmz" ? "_kmz" : "");
 }
 
 }  // namespace
@@ -106,7 +118,7 @@ void write_stac_item(const ProductJob& job, const StacImage& image) {
                  {"links", Json::array({{{"rel", "root"}, {"href", "../catalog.json"}, {"type", "application/json"}},
                                         {{"rel", "parent"}, {"href", "../catalog.json"}, {"type", "application/json"}}})},
                  {"assets", Json::object()}};
-    for (const auto& file : image.assets) item["assets"][file.stem().string()] = asset(job, file);
+    for (const auto& file : image.assets) item["assets"][asset_key(file)] = asset(job, file);
     write_text_file(stac_item_path(job.files), item.dump(2) + "\n");
 }
 

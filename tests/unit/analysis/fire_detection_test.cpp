@@ -210,14 +210,19 @@ TEST(DetectionScore, CountsByPixel) {
     //                                      found  missed  false  right  tiny and called  no data
     const std::vector<unsigned char> called{1, 0, 1, 0, 1, 1};
     const std::vector<float> area_m2{2000.0F, 50.0F, 0.0F, 0.0F, 0.5F, kNaN}, power_MW{80.0F, 2.0F, 0.0F, 0.0F, 0.02F, kNaN};
-    const auto s = score_detection(called, area_m2, power_MW, 1.0);
+    const auto s = score_detection(called, area_m2, power_MW, 6, 1.0);
     EXPECT_EQ(s.true_pixels, 2);
     EXPECT_EQ(s.found, 1);
     EXPECT_EQ(s.detected, 3);
     EXPECT_EQ(s.false_alarms, 1);
+    EXPECT_EQ(s.beside, 1);
     EXPECT_EQ(s.background, 2);
     EXPECT_DOUBLE_EQ(s.omission(), 0.5);
     EXPECT_DOUBLE_EQ(s.commission(), 1.0 / 3.0);
+    EXPECT_EQ(score_detection(called, area_m2, power_MW, 1, 1.0).beside, 1);  // two lines below the missed one
+    const std::vector<unsigned char> far_off{0, 0, 0, 1};
+    const std::vector<float> one_fire{5.0F, 0.0F, 0.0F, 0.0F};
+    EXPECT_EQ(score_detection(far_off, one_fire, one_fire, 4, 1.0).beside, 0);
     ASSERT_EQ(s.by_area_m2.size(), 6u);
     EXPECT_EQ(s.by_area_m2[1].true_pixels, 1);  // 10 to 100 m2
     EXPECT_EQ(s.by_area_m2[1].found, 0);
