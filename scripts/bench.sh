@@ -23,6 +23,7 @@ echo "|---|---|---|---|---|---|"
 "$build/bench/bench_frames" --pairs "$pairs"
 "$build/bench/bench_kernels"
 "$build/bench/bench_prepare"
+"$build/bench/bench_spread"
 
 # The thesis case end to end: rasters in, georeferenced products out.
 cli="$build/src/cli/pyroscene"

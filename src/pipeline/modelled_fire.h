@@ -13,11 +13,12 @@ struct ModelledFire {
     fire::BurningGround ground;
     Raster<float> fuel_load_kg_m2;  ///< before the fire; 0 where nothing burns
     std::optional<Raster<float>> spread_rate_m_s, fireline_intensity_W_m, flame_length_m;  ///< as the front passes
+    std::size_t cells_with_limited_wind = 0;                                               ///< see spread::FireSpread
     std::vector<double> frames_s;                                                          ///< ascending
     double mean_over_s = 6.0;  ///< the flux of a frame is the mean over this time before it
 };
 
-/// Heat flux of a frame, computed on all cores; the same for any number of them.
+/// Heat flux of a frame.
 Raster<float> heat_flux_W_m2(const ModelledFire& fire, double time_s);
 /// Fuel that is left at a time.
 Raster<float> fuel_left_kg_m2(const ModelledFire& fire, double time_s);

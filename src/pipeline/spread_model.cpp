@@ -189,6 +189,7 @@ ModelledFire spread_own_fire(const Scenario& scenario, const Raster<float>& terr
     fire.spread_rate_m_s = std::move(spread.spread_rate_m_s);
     fire.fireline_intensity_W_m = std::move(spread.fireline_intensity_W_m);
     fire.flame_length_m = std::move(spread.flame_length_m);
+    fire.cells_with_limited_wind = spread.cells_with_limited_wind;
     fire.frames_s = source.frames_s;
     fire.mean_over_s = source.mean_over_s;
     add_fuel(fire, land, weather, source.coarse_burn_time_s);

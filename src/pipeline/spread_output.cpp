@@ -89,6 +89,8 @@ void record_spread(RunReport& report, const ModelledFire& fire) {
     report.record("spread/largest_fireline_intensity_kW_m", 1e-3 * largest(fire.fireline_intensity_W_m));
     report.record("spread/largest_flame_length_m", largest(fire.flame_length_m));
     report.record("spread/heat_released_J", heat_released_J(fire, end_s));
+    if (fire.cells_with_limited_wind > 0)
+        report.count("spread_cells_with_limited_wind", static_cast<std::int64_t>(fire.cells_with_limited_wind));
     const auto left = fuel_left_kg_m2(fire, end_s);
     double burnt_kg_m2 = 0.0;
     for (std::size_t i = 0; i < left.values.size(); ++i)

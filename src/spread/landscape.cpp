@@ -1,6 +1,7 @@
 #include "spread/landscape.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -125,21 +126,25 @@ FireSpread spread_fire(const Landscape& landscape, const std::vector<Weather>& w
     for (const auto& w : weather) behaviour.emplace_back(landscape, w, rules);
     FireSpread out{std::move(arrival.time_s), Raster<float>(grid, "spread_rate", "m s-1", kNaN),
                    Raster<float>(grid, "fireline_intensity", "W m-1", kNaN), Raster<float>(grid, "flame_length", "m", kNaN)};
-    for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-        const double time_s = out.arrival_time_s.values[cell];
-        if (std::isnan(time_s)) continue;
-        const auto& here = behaviour[weather_at(weather, time_s)];
-        const FuelBed bed = here.bed(cell);
-        const auto head = here.head(bed, cell);
-        // No front is faster than the head; rounding could make it so.
-        const double rate = std::min(
-            head.rate_m_s,
-            normal_rate_m_s(arrival.slowness[cell], landscape.slope_east.values[cell], landscape.slope_north.values[cell]));
-        out.spread_rate_m_s.values[cell] = static_cast<float>(rate);
-        out.fireline_intensity_W_m.values[cell] = static_cast<float>(bed.heat_J_m2 * rate);
-        out.flame_length_m.values[cell] = static_cast<float>(flame_length_m(bed.heat_J_m2 * rate));
-        out.cells_with_limited_wind += head.limited ? 1 : 0;
-    }
+    std::atomic<std::size_t> limited{0};
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.size(), 4096), [&](const auto& range) {
+        for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+            const double time_s = out.arrival_time_s.values[cell];
+            if (std::isnan(time_s)) continue;
+            const auto& here = behaviour[weather_at(weather, time_s)];
+            const FuelBed bed = here.bed(cell);
+            const auto head = here.head(bed, cell);
+            // No front is faster than the head; rounding could make it so.
+            const double normal = normal_rate_m_s(arrival.slowness[cell], landscape.slope_east.values[cell],
+                                                  landscape.slope_north.values[cell]);
+            const double rate = std::min(head.rate_m_s, normal);
+            out.spread_rate_m_s.values[cell] = static_cast<float>(rate);
+            out.fireline_intensity_W_m.values[cell] = static_cast<float>(bed.heat_J_m2 * rate);
+            out.flame_length_m.values[cell] = static_cast<float>(flame_length_m(bed.heat_J_m2 * rate));
+            if (head.limited) ++limited;
+        }
+    });
+    out.cells_with_limited_wind = limited;
     return out;
 }
 

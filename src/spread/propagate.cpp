@@ -136,74 +136,96 @@ private:
     }
 
     /// Mean time of the cells on the ray from a neighbour to a cell; infinite when it cannot pass.
-    [[nodiscard]] double ray_s(const FireShapes& shapes, int row, int col, std::size_t direction) const noexcept {
+    [[nodiscard]] double ray_s(const FireShapes& shapes, std::size_t cell, std::size_t direction) const noexcept {
         const Move& move = ring_[direction];
-        const double x_m = -move.from.col * grid_.cell_m, y_m = move.from.row * grid_.cell_m;
-        const auto at = [&](Offset o) -> const FireShape& { return shapes[grid_.index(row + o.row, col + o.col)]; };
+        const FireShape* const here = shapes.data() + cell;
+        const auto at = [&](Offset o) -> const FireShape& { return here[step_of(o)]; };
         if (move.corner && !at(move.beside[0]).burns() && !at(move.beside[1]).burns()) return kNever;
         double sum_s = 0.0;
         for (int i = 0; i < move.pieces; ++i) {
             const auto& piece = move.piece[static_cast<std::size_t>(i)];
-            sum_s += piece.share * at(piece.cell).time_s(x_m, y_m);
+            sum_s += piece.share * at(piece.cell).time_s(x_m(move.from), y_m(move.from));
         }
         return sum_s;
     }
+    [[nodiscard]] std::ptrdiff_t step_of(Offset o) const noexcept { return std::ptrdiff_t{o.row} * grid_.cols + o.col; }
+    /// Displacement of the ray from a neighbour.
+    [[nodiscard]] double x_m(Offset from) const noexcept { return -from.col * grid_.cell_m; }
+    [[nodiscard]] double y_m(Offset from) const noexcept { return from.row * grid_.cell_m; }
 
-    /// Offers arrival over the ray from a burnt cell, and from between it and the burnt neighbours of it on the ring.
+    /// Offers arrival over the rays from a burnt cell, and from between it and the burnt neighbours of it on the rings of other cells.
     void spread_from(std::size_t from) {
-        const int from_row = static_cast<int>(from / static_cast<std::size_t>(grid_.cols)),
-                  from_col = static_cast<int>(from % static_cast<std::size_t>(grid_.cols));
+        const int row = static_cast<int>(from / static_cast<std::size_t>(grid_.cols)),
+                  col = static_cast<int>(from % static_cast<std::size_t>(grid_.cols));
         periods_.forget_before(time_s_[from]);
+        const std::size_t period = periods_.at(time_s_[from]);
+        const Now now{periods_.shapes(period), periods_.end_s(period)};
         for (std::size_t d = 0; d < kDirections; ++d) {
             const Offset o = ring_[d].from;
-            const int row = from_row - o.row, col = from_col - o.col;
-            if (!grid_.contains(row, col)) continue;
-            const std::size_t cell = grid_.index(row, col);
-            reach(cell, row, col, d, from);
+            if (!grid_.contains(row - o.row, col - o.col)) continue;
+            const auto cell = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(from) - step_of(o));
+            if (hopeful(now, cell, time_s_[from], ring_[d].piece[0].share, x_m(o), y_m(o)))
+                offer(cell, time_s_[from], x_m(o), y_m(o), [&](const FireShapes& then) { return ray_s(then, cell, d); });
+            if (!now.shapes[cell].burns() || (time_s_[cell] <= time_s_[from] && !is_thin(now.shapes[cell]))) continue;
+            for (const std::size_t side : {(d + 1) % kDirections, (d + kDirections - 1) % kDirections}) {
+                const Offset other = ring_[side].from;
+                if (!grid_.contains(row - o.row + other.row, col - o.col + other.col)) continue;
+                const auto beside = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + step_of(other));
+                if (burnt_[beside] != 0) reach_between(now, {cell, d, side, from, beside});
+            }
         }
     }
 
-    void reach(std::size_t cell, int row, int col, std::size_t direction, std::size_t from) {
-        const auto& shapes = periods_.shapes(periods_.at(time_s_[from]));
-        const Offset o = ring_[direction].from;
-        const double x_m = -o.col * grid_.cell_m, y_m = o.row * grid_.cell_m;
-        const double own_ray_s = ray_s(shapes, row, col, direction);
-        offer(cell, time_s_[from], x_m, y_m,
-              [&](const FireShapes& then) { return &then == &shapes ? own_ray_s : ray_s(then, row, col, direction); });
-        if (!(own_ray_s < kNever)) return;
-        for (const std::size_t side : {(direction + 1) % kDirections, (direction + kDirections - 1) % kDirections}) {
-            const Offset other = ring_[side].from;
-            if (!grid_.contains(row + other.row, col + other.col)) continue;
-            const std::size_t beside = grid_.index(row + other.row, col + other.col);
-            if (burnt_[beside] != 0) reach_between(shapes[cell], {row, col, direction, side, from, beside});
-        }
+    /// Length / width above 2.5: only then can a cell be reached from between two neighbours of which one burns later than it does.
+    [[nodiscard]] static bool is_thin(const FireShape& shape) noexcept {
+        constexpr float kEccentricitySquared = 0.84F;
+        return shape.w_x * shape.w_x + shape.w_y * shape.w_y > kEccentricitySquared * 0.5F * (shape.m_xx + shape.m_yy);
     }
 
-    /// Two burnt neighbours of a cell, next to each other on the ring.
+    /// The weather in which a cell passes the fire on.
+    struct Now {
+        const FireShapes& shapes;
+        double end_s;
+    };
+
+    /// Whether a ray could bring the fire earlier than what is known: its last piece, in the cell itself, takes time. Weather that
+    /// changes before could be faster, so that nothing is known then.
+    [[nodiscard]] bool hopeful(const Now& now, std::size_t cell, double start_s, double last_piece, double x,
+                               double y) const noexcept {
+        const double known_s = time_s_[cell];
+        if (known_s > now.end_s || !(known_s < kNever)) return true;
+        if (known_s <= start_s) return false;
+        return start_s + last_piece * now.shapes[cell].time_s(x, y) < known_s;
+    }
+
+    /// Two burnt neighbours of a cell, next to each other on its ring.
     struct Pair {
-        int row, col;
-        std::size_t direction, side, from, beside;
+        std::size_t cell, direction, side, from, beside;
     };
 
     /// The ray to a cell from the best point between two burnt neighbours: the least of t0 + step s + sqrt(a s2 + 2 b s + c) - w v(s).
-    void reach_between(const FireShape& shape, const Pair& pair) {
+    void reach_between(const Now& now, const Pair& pair) {
+        const FireShape& shape = now.shapes[pair.cell];
         const Offset one = ring_[pair.direction].from, other = ring_[pair.side].from;
-        const double x_m = -one.col * grid_.cell_m, y_m = one.row * grid_.cell_m;
-        const double dx = -other.col * grid_.cell_m - x_m, dy = other.row * grid_.cell_m - y_m;
+        const double x = x_m(one), y = y_m(one), dx = x_m(other) - x, dy = y_m(other) - y;
         const double start = time_s_[pair.from], step = time_s_[pair.beside] - start;
+        if (time_s_[pair.cell] <= std::min(start, start + step)) return;
         const double a = shape.m_xx * dx * dx + 2.0 * shape.m_xy * dx * dy + shape.m_yy * dy * dy;
-        const double b = (shape.m_xx * dx + shape.m_xy * dy) * x_m + (shape.m_xy * dx + shape.m_yy * dy) * y_m;
-        const double c = shape.m_xx * x_m * x_m + 2.0 * shape.m_xy * x_m * y_m + shape.m_yy * y_m * y_m;
+        const double b = (shape.m_xx * dx + shape.m_xy * dy) * x + (shape.m_xy * dx + shape.m_yy * dy) * y;
+        const double c = shape.m_xx * x * x + 2.0 * shape.m_xy * x * y + shape.m_yy * y * y;
         const double d = step - shape.w_x * dx - shape.w_y * dy;
-        if (!(d * d < a)) return;
+        // The derivative along the edge is negative at one end and positive at the other, or the least is an end.
+        if (!(d * std::sqrt(c) + b < 0.0) || !(d * std::sqrt(a + 2.0 * b + c) + a + b > 0.0) || !(d * d < a)) return;
         const double share = -d * std::sqrt(std::max(0.0, a * c - b * b)) / (a * std::sqrt(a - d * d)) - b / a;
         if (!(share > 0.0 && share < 1.0)) return;
-        const double ray_x = x_m + share * dx, ray_y = y_m + share * dy;
-        const std::size_t cell = grid_.index(pair.row, pair.col);
-        offer(cell, start + share * step + bend_s(pair, -dx, -dy, step, share), ray_x, ray_y, [&](const FireShapes& then) {
-            const FireShape& own = then[cell];
-            const double t = std::lerp(ray_s(then, pair.row, pair.col, pair.direction) / own.time_s(x_m, y_m),
-                                       ray_s(then, pair.row, pair.col, pair.side) / own.time_s(x_m + dx, y_m + dy), share) *
+        const double ray_x = x + share * dx, ray_y = y + share * dy;
+        const double between = start + share * step + bend_s(pair, -dx, -dy, step, share);
+        const double last_piece = std::min(ring_[pair.direction].piece[0].share, ring_[pair.side].piece[0].share);
+        if (!hopeful(now, pair.cell, between, last_piece, ray_x, ray_y)) return;
+        offer(pair.cell, between, ray_x, ray_y, [&](const FireShapes& then) {
+            const FireShape& own = then[pair.cell];
+            const double t = std::lerp(ray_s(then, pair.cell, pair.direction) / own.time_s(x, y),
+                                       ray_s(then, pair.cell, pair.side) / own.time_s(x + dx, y + dy), share) *
                              own.time_s(ray_x, ray_y);
             return std::isnan(t) ? kNever : t;
         });

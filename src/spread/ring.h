@@ -16,7 +16,7 @@ struct Move {
         double share = 0.0;  ///< of the ray
     };
     int pieces = 0;
-    std::array<Piece, 6> piece{};  ///< the cells it crosses
+    std::array<Piece, 6> piece{};  ///< the cells it crosses, its own first
     bool corner = false;           ///< it passes through the corner between these two
     std::array<Offset, 2> beside{};
 };
