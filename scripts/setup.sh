@@ -16,7 +16,10 @@ build_packages=(
     libcli11-dev libspdlog-dev libfmt-dev
     libgtest-dev # looked for whenever CMake configures with tests on
 )
-test_packages=(python3-gdal) # GDAL's own validator of Cloud-Optimized GeoTIFFs
+test_packages=(
+    python3-gdal                                 # validator of Cloud-Optimized GeoTIFFs
+    python3-spectral python3-satpy python3-hdf4 # readers of native forms: AVIRIS; VIIRS and MODIS
+)
 bench_packages=(libbenchmark-dev time)
 lint_packages=(clang-format clang-tidy)
 

@@ -37,6 +37,9 @@ struct Orbit {
     std::optional<double> geostationary_longitude_deg{};  ///< of a satellite that stands still
 };
 
+/// How the images of an instrument are handed out, beside GeoTIFF.
+enum class NativeForm { None, AvirisEnvi, AvirisNgEnvi, ModisL1b, ViirsL1b, OrientedFrames, AirborneStrip };
+
 /// Point-spread function along one image axis.
 struct Psf {
     enum class Shape { None, Box, Triangle, Gaussian, Trapezoid } shape = Shape::None;
@@ -73,7 +76,9 @@ struct Sensor {
     std::array<double, 3> boresight_offset_rad{};  ///< roll, pitch, heading misalignment between body and camera
     std::vector<CameraGroup> groups;
     Psf psf_across, psf_along;
-    std::vector<Band> bands;                             ///< in file order
+    std::vector<Band> bands;  ///< in file order
+    NativeForm native_form = NativeForm::None;
+    std::vector<double> native_gain;                     ///< AvirisEnvi: counts per uW cm-2 nm-1 sr-1 of each band
     std::vector<std::array<std::string, 2>> confidence;  ///< {path of a number, code}, in file order; the last match wins
     std::vector<std::array<std::string, 2>> sources;     ///< {key used in the codes, text}
 

@@ -296,9 +296,10 @@ Sensor read_sensor_file(const std::filesystem::path& path) {
     accept(psf, {"mtf_nyquist", "note", "optics_blur_fwhm_samples"});
     psf.finish();
     read_bands(root, read_digitisation(root.child("digitisation")), sensor);
+    read_distribution(root.child("distribution"), sensor);
     sensor.confidence = read_pairs(root.child("confidence"));
     sensor.sources = read_pairs(root.child("sources"));
-    accept(root, {"distribution", "fire_notes", "noise", "notes", "saturation", "scene", "thesis_maxima_w_cm2_sr_um"});
+    accept(root, {"fire_notes", "noise", "notes", "saturation", "scene", "thesis_maxima_w_cm2_sr_um"});
     root.finish();
     document.throw_if_any();
     return sensor;

@@ -19,4 +19,7 @@ void read_scan(const config::Node& geometry, const config::Node& node, const Sen
 /// \param bits  of digitisation, for the bands that give none of their own
 void read_bands(const config::Node& root, std::optional<int> bits, Sensor& sensor);
 
+/// Fills sensor.native_form and native_gain from `distribution`. Needs sensor.bands.
+void read_distribution(const config::Node& distribution, Sensor& sensor);
+
 }  // namespace pyroscene::sensors

@@ -165,8 +165,8 @@ std::string Fingerprints::image(const scenario::Acquisition& a) const {
 
 std::string Fingerprints::product(const scenario::Acquisition& a) const {
     const auto& p = scenario_.products;
-    return sha256(image(a) +
-                  fmt::format("{}{}{}{}{}{}", p.brightness_temperature, p.ortho, p.truth, p.fractions, p.frp, p.quicklook))
+    return sha256(image(a) + fmt::format("{}{}{}{}{}{}{}", p.brightness_temperature, p.ortho, p.truth, p.fractions, p.frp,
+                                         p.quicklook, p.native))
         .substr(0, 32);
 }
 

@@ -14,90 +14,16 @@
 #include "gis/raster_output.h"
 #include "pipeline/fronts.h"
 #include "pipeline/incident_map.h"
+#include "pipeline/native.h"
 #include "pipeline/qgis_style.h"
 #include "pipeline/quicklook.h"
+#include "pipeline/rendered_image.h"
 #include "pipeline/stac.h"
 #include "pipeline/state_file.h"
 #include "radiometry/planck.h"
 
 namespace pyroscene::pipeline {
 namespace {
-
-/// Positions of the planes in geolocation.tif.
-enum GeolocationPlane { kLongitude, kLatitude, kHeight, kViewZenith, kViewAzimuth, kSunZenith, kSunAzimuth };
-/// Positions of the planes in truth.tif that products use.
-enum TruthPlane { kFlame, kFront, kScar, kBackground, kSmoke, kGroundTemperature, kFlameTemperature, kExitance };
-
-/// One rendered group read back, with its pixels on the map.
-struct Rendered {
-    int samples = 0, lines = 0;
-    std::size_t n = 0;
-    gis::ImageFile radiance, geolocation;
-    std::optional<gis::ImageFile> truth;
-    std::vector<double> x_m, y_m;
-    double gsd_m = 0.0;
-    std::vector<float> pixel_area_m2;
-    analysis::ScanLines scans;
-
-    [[nodiscard]] std::span<const double> where(GeolocationPlane p) const {
-        return std::span(geolocation.pixels).subspan(p * n, n);
-    }
-    [[nodiscard]] std::vector<float> truth_plane(std::size_t p) const {
-        return {truth->pixels.begin() + static_cast<std::ptrdiff_t>(p * n),
-                truth->pixels.begin() + static_cast<std::ptrdiff_t>((p + 1) * n)};
-    }
-    [[nodiscard]] std::vector<float> radiance_plane(std::size_t band) const {
-        return {radiance.pixels.begin() + static_cast<std::ptrdiff_t>(band * n),
-                radiance.pixels.begin() + static_cast<std::ptrdiff_t>((band + 1) * n)};
-    }
-};
-
-/// Ground area of each pixel from its neighbours (central differences), and the median pixel size.
-void measure_pixels(Rendered& r) {
-    r.pixel_area_m2.assign(r.n, std::nanf(""));
-    std::vector<float> valid;
-    for (int line = 0; line < r.lines; ++line)
-        for (int sample = 0; sample < r.samples; ++sample) {
-            const auto at = [&](int s, int l) {
-                return static_cast<std::size_t>(l) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(s);
-            };
-            const int s0 = std::max(sample - 1, 0), s1 = std::min(sample + 1, r.samples - 1);
-            const int end = r.scans.end_of_scan(line, r.lines), before = std::max(line - 1, 0);
-            const int l0 = r.scans.end_of_scan(before, r.lines) == end ? before : line, l1 = std::min(line + 1, end - 1);
-            if (s1 == s0 || l1 == l0) continue;
-            const std::size_t a = at(s0, line), b = at(s1, line), c = at(sample, l0), d = at(sample, l1);
-            const double ux = (r.x_m[b] - r.x_m[a]) / (s1 - s0), uy = (r.y_m[b] - r.y_m[a]) / (s1 - s0);
-            const double vx = (r.x_m[d] - r.x_m[c]) / (l1 - l0), vy = (r.y_m[d] - r.y_m[c]) / (l1 - l0);
-            const auto area = static_cast<float>(std::abs(ux * vy - uy * vx));
-            if (!std::isfinite(area)) continue;
-            r.pixel_area_m2[at(sample, line)] = area;
-            valid.push_back(area);
-        }
-    if (valid.empty()) return;
-    const auto middle = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() / 2);
-    std::nth_element(valid.begin(), middle, valid.end());
-    r.gsd_m = std::sqrt(*middle);
-}
-
-Rendered read_rendered(const ProductJob& job) {
-    Rendered r;
-    r.radiance = gis::read_image(job.files.radiance());
-    r.geolocation = gis::read_image(job.files.geolocation());
-    if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth(), kExitance + 1);
-    r.samples = r.radiance.cols;
-    r.lines = r.radiance.rows;
-    r.n = static_cast<std::size_t>(r.samples) * static_cast<std::size_t>(r.lines);
-    r.x_m.assign(r.where(kLongitude).begin(), r.where(kLongitude).end());
-    r.y_m.assign(r.where(kLatitude).begin(), r.where(kLatitude).end());
-    gis::MapProjection(job.inputs.grid.crs_wkt).to_map(r.x_m, r.y_m);
-    const auto number = [&](const char* key) {
-        const auto found = r.radiance.metadata.find(key);
-        return found == r.radiance.metadata.end() ? 0 : std::stoi(found->second);
-    };
-    r.scans = {number("LINES_PER_SCAN"), number("FIRST_LINE_OF_SCAN")};
-    measure_pixels(r);
-    return r;
-}
 
 /// A named multi-band product in sensor geometry; its ortho is the same bands on the map.
 struct Product {
@@ -107,7 +33,7 @@ struct Product {
     bool in_sensor_geometry = true;
 };
 
-Product brightness_product(const ProductJob& job, const Rendered& r) {
+Product brightness_product(const ProductJob& job, const RenderedImage& r) {
     Product p{"brightness_temperature", {}, {}};
     for (std::size_t k = 0; k < job.bands.size(); ++k) {
         const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
@@ -119,7 +45,7 @@ Product brightness_product(const ProductJob& job, const Rendered& r) {
     return p;
 }
 
-Product fractions_product(const Rendered& r) {
+Product fractions_product(const RenderedImage& r) {
     Product p{"fractions", {}, {}};
     for (std::size_t k = kFlame; k <= kSmoke; ++k) {
         p.bands.push_back({r.truth->bands[k].description, "1", {}, {}, {}});
@@ -129,7 +55,7 @@ Product fractions_product(const Rendered& r) {
     return p;
 }
 
-Product frp_product(const Rendered& r) {
+Product frp_product(const RenderedImage& r) {
     Product p{
         "frp",
         {{"fire radiative power per area", "W m-2", {}, {}, {}}, {"fire radiative power of the pixel", "MW", {}, {}, {}}},
@@ -139,7 +65,7 @@ Product frp_product(const Rendered& r) {
     return p;
 }
 
-Product radiance_product(const Rendered& r) {
+Product radiance_product(const RenderedImage& r) {
     Product p{"radiance", r.radiance.bands, {r.radiance.pixels.begin(), r.radiance.pixels.end()}, false};
     return p;
 }
@@ -156,7 +82,7 @@ gis::OutputRaster raster_of(const ProductJob& job, const Product& product) {
     return out;
 }
 
-void write_sensor_geometry(const ProductJob& job, const Rendered& r, const Product& product) {
+void write_sensor_geometry(const ProductJob& job, const RenderedImage& r, const Product& product) {
     auto out = raster_of(job, product);
     out.cols = r.samples;
     out.rows = r.lines;
@@ -181,7 +107,8 @@ RasterStyle style_of(const Product& product, double gsd_m) {
     return gsd_m >= kCoarse_m ? RasterStyle{2, "MW", power_ladder(250.0)} : RasterStyle{1, "W m-2", power_ladder(5e4)};
 }
 
-void write_ortho(const ProductJob& job, const Rendered& r, const Product& product, const analysis::OrthoLookup& lookup) {
+void write_ortho(const ProductJob& job, const RenderedImage& r, const Product& product,
+                 const analysis::OrthoLookup& lookup) {
     auto out = raster_of(job, product);
     out.grid = lookup.grid;
     out.cols = lookup.grid.cols;
@@ -197,19 +124,8 @@ void write_ortho(const ProductJob& job, const Rendered& r, const Product& produc
     write_qgis_style(job.files.file("ortho_" + product.stem), style_of(product, r.gsd_m));
 }
 
-/// Where each map cell appears in the image; cells that terrain hides from the camera appear nowhere.
-analysis::OrthoLookup visible_ground(const ProductJob& job, const Rendered& r, const MapGrid& grid, RunReport& report) {
-    auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight), r.scans);
-    // Heights between two pixels differ from the terrain by less than a pixel on any slope a camera sees, and the facets of the
-    // mesh differ from a bilinear surface by a fraction of a terrain cell where it is rough.
-    const double tolerance_m = 1.5 * r.gsd_m + 0.2 * job.inputs.grid.cell_m + 1.0;
-    const auto hidden = analysis::hide_unseen(lookup, analysis::heights_on(grid, job.inputs.terrain_m), tolerance_m);
-    report.count("hidden_ortho_cells/" + job.acquisition.id + job.files.suffix, hidden);
-    return lookup;
-}
-
 /// One point per pixel with flame or front in it.
-void write_fire_pixels(const ProductJob& job, const Rendered& r, const Product& frp) {
+void write_fire_pixels(const ProductJob& job, const RenderedImage& r, const Product& frp) {
     using Json = nlohmann::ordered_json;
     Json features = Json::array();
     const auto flame = r.truth_plane(kFlame), front = r.truth_plane(kFront);
@@ -251,7 +167,7 @@ void write_vectors(const ProductJob& job, const std::filesystem::path& output) {
         state, fronts_path(path));
 }
 
-void write_picture(const ProductJob& job, const Rendered& r, const Product& brightness) {
+void write_picture(const ProductJob& job, const RenderedImage& r, const Product& brightness) {
     constexpr std::size_t kMostPanels = 4;
     std::vector<QuicklookPanel> panels;
     const std::size_t step = (job.bands.size() + kMostPanels - 1) / kMostPanels;
@@ -282,7 +198,7 @@ void write_picture(const ProductJob& job, const Rendered& r, const Product& brig
     write_quicklook(job.files.folder / ("quicklook" + job.files.suffix + ".png"), caption, panels, r.gsd_m);
 }
 
-std::vector<std::array<double, 2>> footprint(const Rendered& r) {
+std::vector<std::array<double, 2>> footprint(const RenderedImage& r) {
     // Along the image's rim, eight points a side, skipping pixels that see nothing; then counter-clockwise.
     std::vector<std::array<double, 2>> ring;
     constexpr int kPerSide = 8;
@@ -306,13 +222,7 @@ std::vector<std::array<double, 2>> footprint(const Rendered& r) {
     return ring;
 }
 
-/// A round ortho cell near the pixel size: two significant digits.
-double ortho_cell_m(double gsd_m) {
-    const double unit = std::pow(10.0, std::floor(std::log10(gsd_m)) - 1.0);
-    return std::round(gsd_m / unit) * unit;
-}
-
-StacImage stac_image(const ProductJob& job, const Rendered& r, const MapGrid& grid) {
+StacImage stac_image(const ProductJob& job, const RenderedImage& r, const MapGrid& grid) {
     StacImage image;
     image.footprint_lon_lat = footprint(r);
     image.gsd_m = std::round(r.gsd_m * 100.0) / 100.0;
@@ -363,16 +273,23 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
         write_vectors(job, options.output);
     }
     MapGrid grid = job.inputs.grid;
-    if (wanted.ortho) {
+    std::optional<analysis::OrthoLookup> lookup;
+    if (wanted.ortho || wanted.native) {
         timer.emplace(report, "products/ortho");
         grid = analysis::ortho_grid(job.inputs.grid, ortho_cell_m(r.gsd_m), r.x_m, r.y_m);
-        const auto lookup = visible_ground(job, r, grid, report);
+        lookup = visible_ground(job, r, grid, report);
         stage(0.4);
-        write_ortho(job, r, radiance_product(r), lookup);
+    }
+    if (wanted.ortho) {
+        write_ortho(job, r, radiance_product(r), *lookup);
         for (std::size_t i = 0; i < made.size(); ++i) {
             stage(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(made.size()));
-            if (!made[i].stem.empty()) write_ortho(job, r, made[i], lookup);
+            if (!made[i].stem.empty()) write_ortho(job, r, made[i], *lookup);
         }
+    }
+    if (wanted.native) {
+        timer.emplace(report, "products/native");
+        write_native(job, r, *lookup, report);
     }
     stage(0.9);
     timer.emplace(report, "products/quicklook");

@@ -131,7 +131,8 @@ bool* product_flag(Products& products, const std::string& name) {
         {"radiance", &products.radiance},   {"brightness_temperature", &products.brightness_temperature},
         {"ortho", &products.ortho},         {"truth", &products.truth},
         {"fractions", &products.fractions}, {"frp", &products.frp},
-        {"quicklook", &products.quicklook}, {"report", &products.report}};
+        {"quicklook", &products.quicklook}, {"report", &products.report},
+        {"native", &products.native}};
     const auto found = flags.find(name);
     return found == flags.end() ? nullptr : found->second;
 }

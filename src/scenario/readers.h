@@ -14,7 +14,7 @@ namespace pyroscene::scenario {
 inline const std::vector<std::string> kAtmosphereModels{"midlatitude_summer", "midlatitude_winter", "subarctic_summer",
                                                         "tropical",           "us_standard_1976",   "none"};
 inline const std::vector<std::string> kProductNames{
-    "radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report"};
+    "radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report", "native"};
 
 /// Temperatures that ground and flames of a scene can have [K].
 inline constexpr config::Range kTemperature_K = config::Range::between(200.0, 3500.0);

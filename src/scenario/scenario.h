@@ -139,6 +139,7 @@ struct Acquisition {
 struct Products {
     bool radiance = true, brightness_temperature = true, ortho = true, truth = true, fractions = true, frp = true,
          quicklook = true, report = true;
+    bool native = false;  ///< files as the users of the instrument know them
 };
 
 /// All that the user asked for, fully checked by load(): files exist, sensors are known, numbers are in range.

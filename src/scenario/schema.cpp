@@ -426,7 +426,7 @@ constexpr const char* kSchema = R"json({
       "type": "array",
       "minItems": 1,
       "uniqueItems": true,
-      "items": {"enum": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report"]},
+      "items": {"enum": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report", "native"]},
       "default": ["radiance", "brightness_temperature", "ortho", "truth", "fractions", "frp", "quicklook", "report"]
     },
     "seed": {"type": "integer", "minimum": 0, "default": 1}

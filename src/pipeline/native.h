@@ -1,0 +1,27 @@
+#pragma once
+
+#include "pipeline/rendered_image.h"
+
+namespace pyroscene::pipeline {
+
+/// Writes the image as the users of the instrument know it (docs/outputs.md, "Native forms") into the folder `native` of the
+/// acquisition, by the `native_form` of the sensor file; warns when it has none.
+/// \param lookup  of the map the ortho products lie on
+void write_native(const ProductJob& job, const RenderedImage& image, const analysis::OrthoLookup& lookup, RunReport& report);
+
+/// What each form needs.
+struct NativeJob {
+    const ProductJob& job;
+    const RenderedImage& image;
+    const analysis::OrthoLookup& lookup;
+    RunReport& report;
+    std::filesystem::path folder;
+
+    [[nodiscard]] double unix_s() const { return job.scenario.start.unix_s + job.acquisition.time_s; }
+    [[nodiscard]] const sensors::Band& band(std::size_t k) const {
+        return job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
+    }
+};
+void write_aviris(const NativeJob& job);
+
+}  // namespace pyroscene::pipeline

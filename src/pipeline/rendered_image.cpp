@@ -1,0 +1,73 @@
+#include "pipeline/rendered_image.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pyroscene::pipeline {
+namespace {
+
+/// Ground area of each pixel from its neighbours (central differences), and the median pixel size.
+void measure_pixels(RenderedImage& r) {
+    r.pixel_area_m2.assign(r.n, std::nanf(""));
+    std::vector<float> valid;
+    for (int line = 0; line < r.lines; ++line)
+        for (int sample = 0; sample < r.samples; ++sample) {
+            const auto at = [&](int s, int l) {
+                return static_cast<std::size_t>(l) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(s);
+            };
+            const int s0 = std::max(sample - 1, 0), s1 = std::min(sample + 1, r.samples - 1);
+            const int end = r.scans.end_of_scan(line, r.lines), before = std::max(line - 1, 0);
+            const int l0 = r.scans.end_of_scan(before, r.lines) == end ? before : line, l1 = std::min(line + 1, end - 1);
+            if (s1 == s0 || l1 == l0) continue;
+            const std::size_t a = at(s0, line), b = at(s1, line), c = at(sample, l0), d = at(sample, l1);
+            const double ux = (r.x_m[b] - r.x_m[a]) / (s1 - s0), uy = (r.y_m[b] - r.y_m[a]) / (s1 - s0);
+            const double vx = (r.x_m[d] - r.x_m[c]) / (l1 - l0), vy = (r.y_m[d] - r.y_m[c]) / (l1 - l0);
+            const auto area = static_cast<float>(std::abs(ux * vy - uy * vx));
+            if (!std::isfinite(area)) continue;
+            r.pixel_area_m2[at(sample, line)] = area;
+            valid.push_back(area);
+        }
+    if (valid.empty()) return;
+    const auto middle = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() / 2);
+    std::nth_element(valid.begin(), middle, valid.end());
+    r.gsd_m = std::sqrt(*middle);
+}
+
+}  // namespace
+
+RenderedImage read_rendered(const ProductJob& job) {
+    RenderedImage r;
+    r.radiance = gis::read_image(job.files.radiance());
+    r.geolocation = gis::read_image(job.files.geolocation());
+    if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth(), kExitance + 1);
+    r.samples = r.radiance.cols;
+    r.lines = r.radiance.rows;
+    r.n = static_cast<std::size_t>(r.samples) * static_cast<std::size_t>(r.lines);
+    r.x_m.assign(r.where(kLongitude).begin(), r.where(kLongitude).end());
+    r.y_m.assign(r.where(kLatitude).begin(), r.where(kLatitude).end());
+    gis::MapProjection(job.inputs.grid.crs_wkt).to_map(r.x_m, r.y_m);
+    const auto number = [&](const char* key) {
+        const auto found = r.radiance.metadata.find(key);
+        return found == r.radiance.metadata.end() ? 0 : std::stoi(found->second);
+    };
+    r.scans = {number("LINES_PER_SCAN"), number("FIRST_LINE_OF_SCAN")};
+    measure_pixels(r);
+    return r;
+}
+
+analysis::OrthoLookup visible_ground(const ProductJob& job, const RenderedImage& r, const MapGrid& grid, RunReport& report) {
+    auto lookup = analysis::ortho_lookup(grid, r.samples, r.lines, r.x_m, r.y_m, r.where(kHeight), r.scans);
+    // Heights between two pixels differ from the terrain by less than a pixel on any slope a camera sees, and the facets of the
+    // mesh differ from a bilinear surface by a fraction of a terrain cell where it is rough.
+    const double tolerance_m = 1.5 * r.gsd_m + 0.2 * job.inputs.grid.cell_m + 1.0;
+    const auto hidden = analysis::hide_unseen(lookup, analysis::heights_on(grid, job.inputs.terrain_m), tolerance_m);
+    report.count("hidden_ortho_cells/" + job.acquisition.id + job.files.suffix, hidden);
+    return lookup;
+}
+
+double ortho_cell_m(double gsd_m) {
+    const double unit = std::pow(10.0, std::floor(std::log10(gsd_m)) - 1.0);
+    return std::round(gsd_m / unit) * unit;
+}
+
+}  // namespace pyroscene::pipeline
