@@ -24,6 +24,7 @@ echo "|---|---|---|---|---|---|"
 "$build/bench/bench_kernels"
 "$build/bench/bench_prepare"
 "$build/bench/bench_spread"
+"$build/bench/bench_unmix" --pairs "$pairs"
 
 # The thesis case end to end: rasters in, georeferenced products out.
 cli="$build/src/cli/pyroscene"
