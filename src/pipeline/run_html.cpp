@@ -90,18 +90,21 @@ void show_spectra(HtmlPage& page, const ShownImage& shown) {
     std::vector<std::string> head{"pixel", "sample", "line", "longitude", "latitude"};
     for (const auto& name : fraction_heads(digest)) head.push_back(name + " %");
     head.insert(head.end(), {"ground K", "flame K"});
-    const auto bands = some_bands(digest.bands.size(), 4);
-    for (const auto b : bands) head.push_back("L " + band_label(digest.bands[b], b));
-    std::vector<std::vector<std::string>> rows;
+    std::vector<std::vector<std::string>> rows, radiances;
+    const auto bands = some_bands(digest.bands.size(), 8);
+    std::vector<std::string> radiance_head{"radiance, W m-2 sr-1 um-1"};
+    for (const auto b : bands) radiance_head.push_back(band_label(digest.bands[b], b));
     for (const auto& p : digest.picked) {
         rows.push_back({p.kind, std::to_string(p.sample), std::to_string(p.line), fmt::format("{:.5f}", p.longitude_deg),
                         fmt::format("{:.5f}", p.latitude_deg)});
         for (const double f : p.fractions) rows.back().push_back(fmt::format("{:.2f}", 100.0 * f));
         rows.back().push_back(number(p.ground_temperature_K));
         rows.back().push_back(number(p.flame_temperature_K));
-        for (const auto b : bands) rows.back().push_back(number(p.radiance_W_m2_sr_um[b]));
+        radiances.push_back({p.kind});
+        for (const auto b : bands) radiances.back().push_back(number(p.radiance_W_m2_sr_um[b]));
     }
     page.table(head, rows);
+    page.table(radiance_head, radiances);
 }
 
 void show_histogram(HtmlPage& page, const ShownImage& shown) {

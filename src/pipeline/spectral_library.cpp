@@ -96,6 +96,7 @@ void sort_by_wavelength(SpectralLibrary& library) {
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return library.x[a] < library.x[b]; });
     const auto reorder = [&](std::vector<double>& values) {
         std::vector<double> sorted;
+        sorted.reserve(order.size());
         for (const auto i : order) sorted.push_back(values[i]);
         values = std::move(sorted);
     };

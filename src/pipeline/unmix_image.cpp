@@ -13,6 +13,7 @@
 
 #include "base/buffer.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "gis/image_stream.h"
 #include "pipeline/endmember_table.h"
 
@@ -138,16 +139,31 @@ analysis::Endmembers pure_spectra(gis::ImageStream& image, const TruthClasses& t
     return library;
 }
 
-std::vector<FractionScore> scores(const analysis::Endmembers& library, const TruthClasses& truth,
-                                  std::span<const float> fractions, std::size_t pixels) {
-    std::vector<FractionScore> out;
+/// Classes of the truth that the library has under the same name, and where.
+struct Match {
+    std::size_t truth_class = 0, endmember = 0;
+};
+std::vector<Match> matches(const analysis::Endmembers& library, const TruthClasses& truth) {
+    std::vector<Match> out;
     for (std::size_t k = 0; k < truth.names.size(); ++k) {
         const auto found = std::find(library.names.begin(), library.names.end(), truth.names[k]);
-        if (found == library.names.end()) continue;
-        const auto plane = fractions.subspan(static_cast<std::size_t>(found - library.names.begin()) * pixels, pixels);
-        FractionScore score{truth.names[k], 0, 0.0, 0.0};
+        if (found != library.names.end()) out.push_back({k, static_cast<std::size_t>(found - library.names.begin())});
+    }
+    return out;
+}
+
+/// Compares planes of fractions with the truth, which is put into the planes from `beside` on.
+std::vector<FractionScore> scores(const std::vector<Match>& matched, const TruthClasses& truth, std::span<float> planes,
+                                  std::size_t beside, std::size_t pixels) {
+    std::vector<FractionScore> out;
+    for (const auto& [truth_class, endmember] : matched) {
+        const auto plane = planes.subspan(endmember * pixels, pixels),
+                   truth_plane = planes.subspan((beside + out.size()) * pixels, pixels);
+        FractionScore score{truth.names[truth_class], 0, 0.0, 0.0};
         for (std::size_t p = 0; p < pixels; ++p) {
-            const double error = static_cast<double>(plane[p]) - truth.fraction(k, p);
+            const double truth_fraction = truth.fraction(truth_class, p);
+            truth_plane[p] = static_cast<float>(truth_fraction);
+            const double error = static_cast<double>(plane[p]) - truth_fraction;
             if (!std::isfinite(error)) continue;
             ++score.pixels;
             score.mean_error += error;
@@ -162,8 +178,14 @@ std::vector<FractionScore> scores(const analysis::Endmembers& library, const Tru
     return out;
 }
 
+void write_scores(const std::filesystem::path& path, const std::vector<FractionScore>& scored) {
+    std::string text = "endmember,pixels,rms_error,mean_error\n";
+    for (const auto& s : scored) text += fmt::format("{},{},{:.9g},{:.9g}\n", s.name, s.pixels, s.rms_error, s.mean_error);
+    write_text_file(path, text);
+}
+
 void write_result(const UnmixJob& job, bool with_noise, const gis::ImageInfo& info, const analysis::Endmembers& library,
-                  std::span<const float> planes) {
+                  const std::vector<FractionScore>& scored, std::span<const float> planes) {
     gis::OutputRaster out;
     out.cols = info.cols;
     out.rows = info.rows;
@@ -174,6 +196,7 @@ void write_result(const UnmixJob& job, bool with_noise, const gis::ImageInfo& in
     out.bands.push_back({"residual_rms", with_noise ? "standard deviations" : info.bands.front().unit, {}, {}, {}});
     out.bands.push_back({"chosen: sum of 2^k over the endmembers in use, k from 0", "", {}, {}, {}});
     out.bands.push_back({"unexplained: 1 = no mixture of the endmembers", "", {}, {}, {}});
+    for (const auto& score : scored) out.bands.push_back({"truth: fraction of " + score.name, "1", {}, {}, {}});
     if (info.on_map)
         gis::write_cog(job.output, out, planes);
     else
@@ -201,7 +224,9 @@ UnmixReport unmix_image(const UnmixJob& job) {
     const auto k = static_cast<std::size_t>(report.library.count());
     const std::size_t pixels = static_cast<std::size_t>(info.cols) * static_cast<std::size_t>(info.rows);
     Buffer<float> planes;
-    planes.resize((k + 3) * pixels);
+    const auto matched = truth ? matches(report.library, *truth) : std::vector<Match>{};
+    const std::size_t beside = k + 3;
+    planes.resize((beside + matched.size()) * pixels);
     for_each_block(image, job, [&](int first, int lines, std::span<const float> values) {
         tbb::parallel_for(0, lines, [&](int line) {
             const auto n = static_cast<std::size_t>(info.cols);
@@ -225,13 +250,13 @@ UnmixReport unmix_image(const UnmixJob& job) {
     for (const auto count : chosen)
         report.chosen_percent.push_back(
             report.pixels > 0 ? 100.0 * static_cast<double>(count) / static_cast<double>(report.pixels) : 0.0);
-    if (truth) report.scores = scores(report.library, *truth, planes, pixels);
-    write_result(job, !settings.noise.empty(), info, report.library, planes);
-    if (!job.endmembers) {
-        auto table = job.output;
-        table.replace_filename(job.output.stem().string() + "_endmembers.csv");
-        write_endmembers(table, report.library, info);
-    }
+    if (truth) report.scores = scores(matched, *truth, planes, beside, pixels);
+    write_result(job, !settings.noise.empty(), info, report.library, report.scores, planes);
+    const auto table = [&](const char* what) {
+        return job.output.parent_path() / (job.output.stem().string() + "_" + what + ".csv");
+    };
+    if (!job.endmembers) write_endmembers(table("endmembers"), report.library, info);
+    if (truth) write_scores(table("scores"), report.scores);
     return report;
 }
 

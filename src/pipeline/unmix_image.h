@@ -43,8 +43,8 @@ struct UnmixReport {
 };
 
 /// Unmixes an image in blocks of lines: one thread reads while the others compute. Output bands: the fraction of each
-/// endmember, residual_rms, chosen, unexplained (see analysis::UnmixOutput). Endmembers that came from the truth are written beside the
-/// output as <output>_endmembers.csv.
+/// endmember, residual_rms, chosen, unexplained (see analysis::UnmixOutput), then, with a truth, the true fraction of each endmember that it knows.
+/// Beside the output: <output>_endmembers.csv with endmembers that came from the truth, <output>_scores.csv with the errors against it.
 /// Throws an input error: neither endmembers nor truth, spectra that do not cover the bands, truth of another size.
 UnmixReport unmix_image(const UnmixJob& job);
 

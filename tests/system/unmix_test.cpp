@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/csv.h"
 #include "base/files.h"
 #include "gis/crs.h"
 #include "system/support.h"
@@ -198,9 +199,25 @@ TEST(UnmixCommand, TakesEndmembersFromTheTruthOfARenderedImage) {
     EXPECT_NE(result.output.find("background"), std::string::npos) << result.output;
     EXPECT_NE(read_text_file(scratch / "f_endmembers.csv").find("wavelength_um"), std::string::npos);
     EXPECT_EQ(result.output.find("flame"), std::string::npos) << "no pixel is all flame";
+    // The truth lies beside the fractions, and the table of errors follows from the two.
+    const auto fractions = gis::read_image(scratch / "f.tif"), truth = gis::read_image(acquisition / "truth.tif");
+    ASSERT_EQ(fractions.bands.size(), 7U);
+    EXPECT_EQ(fractions.bands[0].description, "fraction of scar");
+    EXPECT_EQ(fractions.bands[5].description, "truth: fraction of scar");
+    const auto scar = plane(fractions, 0), beside = plane(fractions, 5), scar_truth = plane(truth, 2);
+    double squares = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < scar.size(); ++p) {
+        if (!std::isfinite(scar[p]) || !std::isfinite(scar_truth[p])) continue;
+        ASSERT_EQ(beside[p], scar_truth[p]);
+        squares += (scar[p] - scar_truth[p]) * (scar[p] - scar_truth[p]);
+        count += 1.0;
+    }
+    const auto scores = read_csv(scratch / "f_scores.csv");
+    EXPECT_EQ(scores.rows[0][0], "scar");
+    EXPECT_NEAR(scores.numbers("rms_error")[0], std::sqrt(squares / count), 1e-6);
     const auto purest = pyroscene_cli("unmix " + (acquisition / "radiance.tif").string() + " --method fcls --truth " +
                                       (acquisition / "truth.tif").string() + " --pure 1 --purest 0.02 -o " + out + "/f.tif");
-    // Flame joins front, scar and background, which is one too many for three bands.
+    // Flame and front join scar and background, which is one too many for three bands.
     EXPECT_NE(purest.output.find("3 bands for 4 spectra"), std::string::npos) << purest.output;
     // In sensor geometry the geolocation arrays of the image are taken over.
     const auto info = run_command("gdalinfo " + out + "/f.tif");
