@@ -13,8 +13,8 @@
 
 #include "base/files.h"
 #include "base/random.h"
+#include "bench/measure.h"
 #include "gis/raster_output.h"
-#include "measure.h"
 #include "pipeline/unmix_image.h"
 #include "radiometry/planck.h"
 
