@@ -38,11 +38,11 @@ struct Format {
     const char* driver;
     bool geographic;      ///< coordinates are turned into WGS 84
     const char* options;  ///< of a layer
-    bool styled;
+    bool styled, times;
 };
-constexpr std::array<Format, 3> kFormats{{{".gpkg", "GPKG", false, "SPATIAL_INDEX=YES", false},
-                                          {".geojson", "GeoJSON", true, "RFC7946=YES", false},
-                                          {".kmz", "LIBKML", true, "ADD_REGION=NO", true}}};
+constexpr std::array<Format, 3> kFormats{{{".gpkg", "GPKG", false, "SPATIAL_INDEX=YES", false, true},
+                                          {".geojson", "GeoJSON", true, "RFC7946=YES", false, false},
+                                          {".kmz", "LIBKML", true, "ADD_REGION=NO", true, true}}};
 
 const Format& format_of(const std::filesystem::path& path) {
     for (const Format& f : kFormats)
@@ -87,6 +87,29 @@ void set_value(OGRFeature& feature, int field, const FieldValue& value) {
     if (const auto* count = std::get_if<std::int64_t>(&value)) feature.SetField(field, static_cast<GIntBig>(*count));
 }
 
+/// GeoJSON knows no times: text, as it was given.
+OGRFieldType field_type(VectorField::Type type, const Format& format) {
+    switch (type) {
+        case VectorField::Type::Real:
+            return OFTReal;
+        case VectorField::Type::Integer:
+            return OFTInteger64;
+        case VectorField::Type::Time:
+            return format.times ? OFTDateTime : OFTString;
+        case VectorField::Type::Text:
+            break;
+    }
+    return OFTString;
+}
+
+/// Name of the first field of type Time; empty = none.
+std::string time_field(std::span<const VectorLayer> layers) {
+    for (const auto& layer : layers)
+        for (const auto& field : layer.fields)
+            if (field.type == VectorField::Type::Time) return field.name;
+    return {};
+}
+
 void write_layer(GDALDataset& out, const VectorLayer& layer, const Format& format, const std::string& subject,
                  const GdalErrors& errors) {
     const auto fail = [&] { throw runtime_error(subject, "cannot be written: " + errors.message()); };
@@ -96,9 +119,7 @@ void write_layer(GDALDataset& out, const VectorLayer& layer, const Format& forma
     OGRLayer* to = out.CreateLayer(layer.name.c_str(), &target, geometry_type(layer.kind), const_cast<char**>(options));
     if (to == nullptr) fail();
     for (const auto& field : layer.fields) {
-        OGRFieldDefn definition(field.name.c_str(), field.type == VectorField::Type::Real      ? OFTReal
-                                                    : field.type == VectorField::Type::Integer ? OFTInteger64
-                                                                                               : OFTString);
+        OGRFieldDefn definition(field.name.c_str(), field_type(field.type, format));
         to->CreateField(&definition);
     }
     const std::unique_ptr<OGRCoordinateTransformation> turn(
@@ -145,6 +166,7 @@ void write_vector(const std::filesystem::path& path, std::span<const VectorLayer
     const GdalErrors errors;
     // SQLite syncs after every statement unless told otherwise, and the file gets its name only when it is whole.
     const ThreadOption unsynced("OGR_SQLITE_SYNCHRONOUS", "OFF");
+    const ThreadOption moment("LIBKML_TIMESTAMP_FIELD", time_field(layers).c_str());
     AtomicFile file(path);
     DatasetPtr out = create_vector(format.driver, file.path().string(), subject, errors);
     for (const auto& layer : layers) write_layer(*out, layer, format, subject, errors);

@@ -22,7 +22,7 @@ using FieldValue = std::variant<std::monostate, double, std::int64_t, std::strin
 
 struct VectorField {
     std::string name;
-    enum class Type { Real, Integer, Text } type = Type::Text;
+    enum class Type { Real, Integer, Text, Time } type = Type::Text;  ///< values of a Time are ISO 8601 text
 };
 
 struct VectorFeature {
@@ -41,7 +41,7 @@ struct VectorLayer {
 };
 
 /// Writes layers by the file's extension: .gpkg (every layer in its own CRS), .geojson (RFC 7946: WGS 84; one layer), .kmz
-/// (WGS 84; a folder per layer, coloured by `style`). Written atomically. Throws a runtime error naming the file.
+/// (WGS 84; a folder per layer, coloured by `style`, with the first field of type Time as the moment of a feature). Written atomically. Throws a runtime error naming the file.
 void write_vector(const std::filesystem::path& path, std::span<const VectorLayer> layers);
 
 /// Outlines of the connected cells that have one value (edges of cells, holes kept), per value other than 0.

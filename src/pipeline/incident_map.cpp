@@ -38,7 +38,7 @@ public:
         layer_.kind = kind;
         layer_.style = style;
         layer_.fields = {{"IncidentName", Type::Text}, {"FeatureCategory", Type::Text}, {"MapMethod", Type::Text},
-                         {"DateCurrent", Type::Text},  {"Comments", Type::Text},        {"synthetic", Type::Integer}};
+                         {"DateCurrent", Type::Time},  {"Comments", Type::Text},        {"synthetic", Type::Integer}};
         layer_.fields.insert(layer_.fields.end(), own_fields.begin(), own_fields.end());
     }
 

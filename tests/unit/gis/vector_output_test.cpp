@@ -77,15 +77,16 @@ TEST(WriteVector, GeoPackageKeepsTheMapAndKmzHoldsEveryLayer) {
     VectorLayer points;
     points.name = "spots";
     points.crs = ring().grid.crs_wkt;
-    points.fields = {{"ground_K", VectorField::Type::Real}};
-    points.features = {{{{{500045.0, 5169955.0}}}, {512.5}}, {{{{500105.0, 5169955.0}}}, {std::monostate{}}}};
+    const std::string time = "2017-07-15T23:00:00Z";
+    points.fields = {{"ground_K", VectorField::Type::Real}, {"seen", VectorField::Type::Time}};
+    points.features = {{{{{500045.0, 5169955.0}}}, {512.5, time}}, {{{{500105.0, 5169955.0}}}, {std::monostate{}, time}}};
     points.style = "SYMBOL(id:\"http://example.org/circle.png\",c:#FFD000)";
     VectorLayer lines = points;
     lines.style = "PEN(c:#FF0000,w:3px)";
     lines.name = "front";
     lines.kind = GeometryKind::Line;
     lines.features = {
-        {{{{500000.0, 5170000.0}, {500030.0, 5169960.0}}, {{500090.0, 5170000.0}, {500090.0, 5169900.0}}}, {1.0}}};
+        {{{{500000.0, 5170000.0}, {500030.0, 5169960.0}}, {{500090.0, 5170000.0}, {500090.0, 5169900.0}}}, {1.0, time}}};
     const std::vector<VectorLayer> layers{ring_layer(), lines, points};
     write_vector(folder / "map.gpkg", layers);
     write_vector(folder / "map.kmz", layers);
@@ -105,11 +106,15 @@ TEST(WriteVector, GeoPackageKeepsTheMapAndKmzHoldsEveryLayer) {
     OGRLayer* spots = package->GetLayerByName("spots");
     const std::unique_ptr<OGRFeature> hot(spots->GetNextFeature()), unknown(spots->GetNextFeature());
     EXPECT_DOUBLE_EQ(hot->GetFieldAsDouble("ground_K"), 512.5);
+    EXPECT_STREQ(hot->GetFieldAsString("seen"), "2017/07/15 23:00:00+00");  // GDAL's way to show a time
+    write_vector(folder / "spots.geojson", {&points, 1});
+    EXPECT_NE(read_text_file(folder / "spots.geojson").find("\"seen\": \"2017-07-15T23:00:00Z\""), std::string::npos);
     EXPECT_FALSE(unknown->IsFieldSetAndNotNull(unknown->GetFieldIndex("ground_K")));
     const auto google = open_vector(folder / "map.kmz");
     const std::unique_ptr<OGRFeature> spot(google->GetLayerByName("spots")->GetNextFeature());
     const auto [x, y] = MapProjection("EPSG:32611")
                             .to_map(spot->GetGeometryRef()->toPoint()->getY(), spot->GetGeometryRef()->toPoint()->getX());
+    EXPECT_STREQ(spot->GetFieldAsString("timestamp"), "2017/07/15 23:00:00+00");
     EXPECT_NEAR(x, 500045.0, 0.05);
     EXPECT_NEAR(y, 5169955.0, 0.05);
 }
