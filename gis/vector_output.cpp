@@ -153,6 +153,7 @@ DatasetPtr class_dataset(const Raster<std::uint8_t>& classes) {
 
 std::vector<Position> positions_of(const OGRLinearRing& ring) {
     std::vector<Position> out;
+    out.reserve(static_cast<std::size_t>(ring.getNumPoints()));
     for (int i = 0; i < ring.getNumPoints(); ++i) out.push_back({ring.getX(i), ring.getY(i)});
     return out;
 }

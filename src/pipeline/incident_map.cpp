@@ -109,7 +109,8 @@ VectorLayer front(const IncidentMapTitle& title, const fire::FireState& state, c
     MapLayer out(
         title, grid.crs_wkt, "front", gis::GeometryKind::Line, "PEN(c:#E31A1C,w:4px)",
         {{"front", Type::Integer}, {"length_m", Type::Real}, {"mean_depth_m", Type::Real}, {"intensity_kW_m", Type::Real}});
-    for (auto& [label, lines] : parts) {
+    for (auto& [number, lines] : parts) {
+        const int label = number;
         double total_m = 0.0;
         for (const auto& line : lines) total_m += length_m(line);
         const auto of_front = [&](const char* column) -> FieldValue {
