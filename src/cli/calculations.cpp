@@ -226,6 +226,7 @@ const std::vector<Calculation>& calculations() {
         flame_height_calculation(),
         flame_tilt_calculation(),
         thesis_potassium_calculation(),
+        alkali_width_calculation(),
         spread_calculation(),
         {"scar-temperature",
          "burn scar cooling: double_exponential (thesis eq 4.17, numbers of 4.18) or single_exponential (2.9 with ambient)",

@@ -7,8 +7,10 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "fire/flame_height.h"
 #include "fire/flame_tilt.h"
+#include "radiometry/alkali.h"
 #include "radiometry/alkali_thesis.h"
 
 namespace pyroscene::cli {
@@ -209,6 +211,25 @@ Calculation thesis_potassium_calculation() {
                                    radiometry::thesis_potassium_power_W(gas, T_K),
                                    radiometry::thesis_potassium_ratio(gas, T_K, emissivity, 766.40, 766.60),
                                    radiometry::thesis_potassium_ratio(gas, T_K, emissivity, 769.80, 770.00)};
+            }};
+}
+
+Calculation alkali_width_calculation() {
+    return {"alkali-width",
+            "equivalent width of the doublets of potassium (767, 770 nm) and sodium (589 nm) in a homogeneous flame",
+            {{"temperature_K", {}}, {"path_m", {}}, {"potassium_ppm", "1"}, {"sodium_ppm", "0"}, {"pressure_atm", "1"}},
+            {"potassium_nm", "sodium_nm"},
+            [](const Arguments& a) {
+                static const auto lines = radiometry::load_alkali_lines(data_folder() / "optical" / "alkali_lines.csv");
+                const double T_K = above_zero(a, "temperature_K"), path_m = above_zero(a, "path_m"),
+                             pressure_atm = above_zero(a, "pressure_atm");
+                const auto width_nm = [&](const auto& doublet, const char* ppm) {
+                    if (!(a.number(ppm) >= 0.0))
+                        throw input_error(fmt::format("--{}", ppm),
+                                          fmt::format("found {}, expected at least 0", a.number(ppm)));
+                    return 1e3 * radiometry::equivalent_width_um(doublet, 1e-6 * a.number(ppm) * path_m, T_K, pressure_atm);
+                };
+                return std::vector{width_nm(lines.potassium, "potassium_ppm"), width_nm(lines.sodium, "sodium_ppm")};
             }};
 }
 

@@ -12,5 +12,7 @@ Calculation flame_tilt_calculation();
 
 /// `calc thesis-potassium`: appendix A as printed.
 Calculation thesis_potassium_calculation();
+/// `calc alkali-width`.
+Calculation alkali_width_calculation();
 
 }  // namespace pyroscene::cli

@@ -9,6 +9,7 @@
 #include "base/csv.h"
 #include "gis/raster_input.h"
 #include "gis/raster_output.h"
+#include "pipeline/flame_power.h"
 #include "pipeline/state_file.h"
 
 namespace pyroscene::pipeline {
@@ -22,22 +23,6 @@ double heat_release_W(const scenario::Scenario& scenario, const SceneInputs& in,
     for (const float flux : frame.heat_flux_W_m2.values)
         if (flux > 0.0F) sum += flux;
     return sum * in.grid.cell_area_m2();
-}
-
-/// Thin emission of all voxels: Planck-mean absorption of soot, 1340 fv T [1/m] near 1000-1100 K, or the grey value.
-double flame_power_W(const scenario::FlameSettings& settings, const FireScene& scene) {
-    constexpr double kSootPlanckMean_per_m_K = 1340.0;
-    const auto& grid = scene.flame.grid;
-    double sum = 0.0;
-    for (const auto& brick : scene.flame.bricks)
-        for (std::size_t v = 0; v < brick.fill.size(); ++v) {
-            if (!(brick.fill[v] > 0.0F)) continue;
-            const double T_K = brick.temperature_K[v];
-            const double k_per_m =
-                settings.grey_absorption_per_m.value_or(kSootPlanckMean_per_m_K * scene.gas.soot_volume_fraction * T_K);
-            sum += brick.fill[v] * k_per_m * fourth_power(T_K);
-        }
-    return 4.0 * kStefanBoltzmann_W_m2_K4 * sum * grid.dx_m * grid.dy_m * grid.dz_m;
 }
 
 double front_power_W(const fire::SurfaceField& surface) {
@@ -83,16 +68,18 @@ void record_energy(RunReport& report, const scenario::Scenario& scenario, const 
     }
     front_W *= kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
     scar_W *= kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
-    const double flame_W = flame_power_W(scenario.flame, scene);
+    const FlamePower flame = flame_power(scenario, scene);
     const double released_W = heat_release_W(scenario, in, state.time_s);
 
     const auto prefix = "energy/" + acquisition_id + "/";
     report.record(prefix + "heat_release_W", released_W);
     report.record(prefix + "front_W", front_W);
     report.record(prefix + "scar_W", scar_W);
-    report.record(prefix + "flame_W", flame_W);
+    report.record(prefix + "flame_W", flame.soot_W);
+    report.record(prefix + "flame_gas_W", flame.gas_W);
+    report.record(prefix + "smoke_W", flame.smoke_W);
     if (!(released_W > 0.0)) return;
-    const double fraction = (front_W + flame_W) / released_W;
+    const double fraction = (front_W + flame.flame_W()) / released_W;
     report.record(prefix + "radiant_fraction", fraction);
     constexpr double kImplausible = 0.35;
     if (fraction > kImplausible && scenario.physics == fire::Physics::Default)
@@ -107,35 +94,42 @@ void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario
     const auto& flame = scenario.flame;
     if (!flame.radiant_fraction) return;
     const double wanted_W = *flame.radiant_fraction * state.heat_release_W - front_power_W(scene.surface);
-    const double flame_W = flame_power_W(flame, scene);
-    if (!(wanted_W > 0.0 && flame_W > 0.0)) {
+    if (!(wanted_W > 0.0) || scene.flame.empty()) {
         report.warn(fmt::format("acquisition '{}': flame.radiant_fraction {} cannot be met: {}", acquisition_id,
                                 *flame.radiant_fraction,
-                                flame_W > 0.0 ? "the front alone radiates more" : "there is no flame to scale"));
+                                scene.flame.empty() ? "there is no flame to scale" : "the front alone radiates more"));
         return;
     }
     const auto prefix = "energy/" + acquisition_id + "/";
-    if (!flame.adjust_temperature) {
-        constexpr double kMost = 1e-4;
-        const double wanted = scene.gas.soot_volume_fraction * wanted_W / flame_W;
-        scene.gas.soot_volume_fraction = std::min(wanted, kMost);
-        report.record(prefix + "soot_volume_fraction", scene.gas.soot_volume_fraction);
-        if (wanted > kMost)
-            report.warn(
-                fmt::format("acquisition '{}': flame.radiant_fraction needs a soot volume fraction of {:.2g}; {} is used",
-                            acquisition_id, wanted, kMost));
-        return;
+    const auto trial = scene;  // as the scenario has it
+    const auto scaled = [&](double factor) -> FireScene& {
+        if (!flame.adjust_temperature) {
+            scene.gas.soot_volume_fraction = factor;
+            return scene;
+        }
+        for (std::size_t b = 0; b < scene.flame.bricks.size(); ++b)
+            for (std::size_t v = 0; v < scene.flame.bricks[b].temperature_K.size(); ++v)
+                scene.flame.bricks[b].temperature_K[v] = static_cast<float>(trial.flame.bricks[b].temperature_K[v] * factor);
+        return scene;
+    };
+    constexpr double kLeastSoot = 1e-12, kMostSoot = 1e-4;
+    const auto [low_K, high_K] = trial.flame.temperature_range_K();
+    double low = flame.adjust_temperature ? 200.0 / low_K : kLeastSoot,
+           high = flame.adjust_temperature ? 3500.0 / high_K : kMostSoot;
+    const auto power_W = [&](double factor) { return flame_power(scenario, scaled(factor)).flame_W(); };
+    const bool too_much = power_W(low) > wanted_W, too_little = power_W(high) < wanted_W;
+    for (int i = 0; i < 60 && !too_much && !too_little && high > low * (1.0 + 1e-7); ++i) {
+        const double middle = std::sqrt(low * high);
+        (power_W(middle) < wanted_W ? low : high) = middle;
     }
-    const double factor = std::pow(wanted_W / flame_W, flame.grey_absorption_per_m ? 0.25 : 0.2);
-    const auto [low_K, high_K] = scene.flame.temperature_range_K();
-    const double held = std::clamp(factor, 200.0 / low_K, 3500.0 / high_K);
-    for (auto& brick : scene.flame.bricks)
-        for (float& T_K : brick.temperature_K) T_K = static_cast<float>(T_K * held);
-    report.record(prefix + "flame_temperature_factor", held);
-    if (held != factor)
-        report.warn(
-            fmt::format("acquisition '{}': flame.radiant_fraction needs {:.2f} times the flame temperature; {:.2f} is used",
-                        acquisition_id, factor, held));
+    const double held = too_much ? low : high;
+    scaled(held);
+    report.record(prefix + (flame.adjust_temperature ? "flame_temperature_factor" : "soot_volume_fraction"), held);
+    if (too_much || too_little)
+        report.warn(fmt::format("acquisition '{}': flame.radiant_fraction {} cannot be met: {} {:.2g} radiates too {}",
+                                acquisition_id, *flame.radiant_fraction,
+                                flame.adjust_temperature ? "temperature times" : "a soot volume fraction of", held,
+                                too_much ? "much" : "little"));
 }
 
 void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& in,

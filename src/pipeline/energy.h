@@ -9,13 +9,13 @@ namespace pyroscene::pipeline {
 
 /// Compares what the inputs release with what the scene radiates and records it as energy/<acquisition>/...:
 /// heat_release_W (cell-mean heat flux x area of the frame), front_W and scar_W (ground, emissivity 1; the scar above ambient),
-/// flame_W (optically thin upper bound: voxels' 4 k_P sigma T^4 V, Planck-mean absorption of soot 1340 fv T), radiant_fraction.
+/// flame_W, flame_gas_W and smoke_W (flame_power.h), radiant_fraction = (front + flame + gas) / release.
 /// Warns when the radiant fraction of front and flame exceeds 0.35 (published for wildland fire: 0.10-0.25) under default physics.
 void record_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& inputs,
                    const fire::FireState& state, const FireScene& scene, const std::string& acquisition_id);
 
 /// Scales soot, or temperature, of the flame so that front and flame radiate flame.radiant_fraction of the heat that the frame
-/// releases; does nothing without that key. Closed form: thin soot emits in proportion to fv T^5, a grey flame to T^4.
+/// releases, gas included; does nothing without that key. By bisection to 1e-7 of soot or temperature.
 /// Records energy/<acquisition>/soot_volume_fraction or flame_temperature_factor; warns when the target cannot be met (the
 /// front alone radiates more, or soot or temperature would leave their range).
 void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario, const fire::FireState& state,

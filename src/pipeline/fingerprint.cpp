@@ -98,7 +98,8 @@ std::string scene_text(const Scenario& s) {
     const auto& gas = flame.gas;
     out += fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{};", static_cast<int>(flame.parameters.profile.shape),
                        flame.parameters.profile.tip_K, gas.x_H2O, gas.x_CO2, gas.x_CO, gas.x_CH4, gas.x_O2,
-                       gas.potassium_ppm, gas.pressure_Pa, flame.parameters.profile.air_K);
+                       gas.potassium_ppm, s.flame.pressure_Pa.value_or(-1.0), flame.parameters.profile.air_K);
+    out += fmt::format("{}|", gas.sodium_ppm);
     out += fmt::format("{}|{}|{};", s.surface.unburned, s.surface.burned, s.surface.emissivity.value_or(-1.0));
     out += fmt::format("{}|{};", s.surface.ash, s.surface.burn_severity);
     for (const auto& [name, file] : s.surface.spectra) out += name + sha256_of_file(file) + ";";

@@ -98,4 +98,8 @@ double gas_optical_depth(GasSpecies species, const GasColumn& column) noexcept {
     return x * std::sqrt(1.0 - 1.0 / std::sqrt(y));
 }
 
+double standard_pressure_Pa(double height_m) noexcept {
+    return kAtmosphere_Pa * std::pow(1.0 - 0.0065 * std::min(height_m, 11000.0) / 288.15, 5.2559);
+}
+
 }  // namespace pyroscene::radiometry

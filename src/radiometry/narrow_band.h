@@ -5,6 +5,9 @@
 
 namespace pyroscene::radiometry {
 
+/// Pressure of the U.S. Standard Atmosphere 1976 below 11 km:  p = p0 (1 - 0.0065 h / 288.15)^5.2559.
+double standard_pressure_Pa(double height_m) noexcept;
+
 inline double pressure_atm(const FlameGas& gas) noexcept { return gas.pressure_Pa / kAtmosphere_Pa; }
 
 /// Absorption of one species at one wavelength in the statistical narrow-band model.

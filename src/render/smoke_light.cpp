@@ -6,61 +6,13 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "fire/flame_bodies.h"
 #include "render/smoke_shadow.h"
 
 namespace pyroscene::render {
 namespace {
 
 constexpr int kEdge = fire::FlameField::kBrickEdge;
-
-/// Calls visit(brick, brick_i, brick_j, brick_k) for all bricks.
-template <class Visit>
-void visit_bricks(const fire::FlameField& field, Visit&& visit) {
-    for (int bj = 0; bj < field.brick_rows; ++bj) {
-        for (int bi = 0; bi < field.brick_cols; ++bi) {
-            const auto& column = field.columns[static_cast<std::size_t>(bj) * static_cast<std::size_t>(field.brick_cols) +
-                                               static_cast<std::size_t>(bi)];
-            for (int b = 0; b < column.brick_count; ++b)
-                visit(field.bricks[static_cast<std::size_t>(column.first_brick + b)], bi, bj, column.z_begin + b);
-        }
-    }
-}
-
-/// A brick of flame as one body: middle, volume of emitting gas, outer faces, temperature (mean weighted with fill T^4).
-struct FlameBody {
-    Vec3 middle_m;
-    double filled_m3 = 0.0, area_m2 = 0.0, T_K = 0.0;
-};
-
-FlameBody flame_body(const fire::FlameField& flame, const fire::FlameField::Brick& brick, int bi, int bj, int bk) {
-    const fire::VoxelGrid& g = flame.grid;
-    const double volume_m3 = g.dx_m * g.dy_m * g.dz_m;
-    const std::array<double, 3> face_m2{g.dy_m * g.dz_m, g.dx_m * g.dz_m, g.dx_m * g.dy_m};
-    FlameBody body;
-    double weights = 0.0;
-    for (std::size_t v = 0; v < brick.fill.size(); ++v) {
-        if (!(brick.fill[v] > 0.0F)) continue;
-        const int n = static_cast<int>(v), i = bi * kEdge + n % kEdge, j = bj * kEdge + n / kEdge % kEdge,
-                  k = bk * kEdge + n / (kEdge * kEdge);
-        const double T_K = brick.temperature_K[v], weight = brick.fill[v] * T_K * T_K * T_K * T_K;
-        weights += weight;
-        body.T_K += weight * T_K;
-        body.middle_m = body.middle_m + weight * Vec3{g.corner_m.x + (i + 0.5) * g.dx_m, g.corner_m.y + (j + 0.5) * g.dy_m,
-                                                      g.corner_m.z + (k + 0.5) * g.dz_m};
-        body.filled_m3 += brick.fill[v] * volume_m3;
-        for (const int step : {-1, 1}) {
-            if (!(voxel_at(flame, i + step, j, k).fill > 0.0F)) body.area_m2 += face_m2[0];
-            if (!(voxel_at(flame, i, j + step, k).fill > 0.0F)) body.area_m2 += face_m2[1];
-            if (!(voxel_at(flame, i, j, k + step).fill > 0.0F)) body.area_m2 += face_m2[2];
-        }
-    }
-    if (!(weights > 0.0)) return {};
-    body.T_K /= weights;
-    body.middle_m = body.middle_m / weights;
-    // Bodies in the middle of flame have no outer face; the least area is that of the sphere that holds the gas.
-    body.area_m2 = std::max(body.area_m2, std::cbrt(36.0 * kPi * body.filled_m3 * body.filled_m3));
-    return body;
-}
 
 }  // namespace
 
@@ -79,12 +31,17 @@ SmokeLight::SmokeLight(const RenderScene& scene, const SceneTables& tables, cons
 void SmokeLight::find_box() {
     const fire::FlameField& field = *scene_->plume;
     int west = field.brick_cols, east = 0, south = field.brick_rows, north = 0;
-    visit_bricks(field, [&](const auto&, int bi, int bj, int) {
-        west = std::min(west, bi);
-        east = std::max(east, bi + 1);
-        south = std::min(south, bj);
-        north = std::max(north, bj + 1);
-    });
+    for (int bj = 0; bj < field.brick_rows; ++bj) {
+        for (int bi = 0; bi < field.brick_cols; ++bi) {
+            const auto column =
+                static_cast<std::size_t>(bj) * static_cast<std::size_t>(field.brick_cols) + static_cast<std::size_t>(bi);
+            if (field.columns[column].brick_count == 0) continue;
+            west = std::min(west, bi);
+            east = std::max(east, bi + 1);
+            south = std::min(south, bj);
+            north = std::max(north, bj + 1);
+        }
+    }
     const fire::VoxelGrid& g = field.grid;
     const auto [lowest, highest] = plume_->height_range();
     corner_m_ = g.corner_m + Vec3{west * kEdge * g.dx_m, south * kEdge * g.dy_m, lowest * g.dz_m};
@@ -98,10 +55,8 @@ void SmokeLight::find_sources(const SceneTables& tables) {
     const std::size_t n = flame_share_m2_.size();
     std::vector<float> tau(n), emitted(n), emission(n, 0.0F);
     double total = 0.0;
-    visit_bricks(*scene_->flame, [&](const fire::FlameField::Brick& brick, int bi, int bj, int bk) {
-        const FlameBody body = flame_body(*scene_->flame, brick, bi, bj, bk);
-        if (!(body.filled_m3 > 0.0)) return;
-        const auto chord_m = static_cast<float>(4.0 * body.filled_m3 / body.area_m2);
+    for (const fire::FlameBody& body : fire::flame_bodies(*scene_->flame)) {
+        const auto chord_m = static_cast<float>(body.chord_m());
         const PlanckRows::Lookup at = tables.planck.at(body.T_K);
         std::fill(tau.begin(), tau.end(), 1.0F);
         std::fill(emitted.begin(), emitted.end(), 0.0F);
@@ -115,7 +70,7 @@ void SmokeLight::find_sources(const SceneTables& tables) {
         }
         sources_.push_back({body.middle_m, scattered, body.area_m2 / (16.0 * kPi)});
         total += scattered;
-    });
+    }
     for (Source& source : sources_) source.weight = total > 0.0 ? source.weight / total : 0.0;
     for (std::size_t l = 0; l < n; ++l)
         flame_radiance_[l] = flame_share_m2_[l] > 0.0F ? emission[l] / flame_share_m2_[l] : 0.0F;

@@ -73,6 +73,7 @@ FlameGas read_composition(const config::Node& node) {
     gas.x_CH4 = node.number("x_CH4", gas.x_CH4, kFraction);
     gas.x_O2 = node.number("x_O2", gas.x_O2, kFraction);
     gas.potassium_ppm = node.number("potassium_ppm", gas.potassium_ppm, Range::between(0.0, 1000.0));
+    gas.sodium_ppm = node.number("sodium_ppm", gas.sodium_ppm, Range::between(0.0, 1000.0));
     if (gas.x_N2() < -1e-9) node.report(fmt::format("mole fractions sum to {:g}, more than 1", 1.0 - gas.x_N2()));
     node.finish();
     return gas;
@@ -99,6 +100,7 @@ FlameSettings read_flame(const config::Node& node, fire::Physics physics) {
     flame.gas.soot_volume_fraction = node.number("soot_volume_fraction", flame.gas.soot_volume_fraction, kSoot);
     if (node.has("soot_volume_fraction") && node.child("composition").has("soot_volume_fraction"))
         node.child("soot_volume_fraction").report("is in 'composition' too; give it once");
+    flame.pressure_Pa = node.optional_number("pressure_Pa", Range::between(1e4, 1.2e5));
     read_profile(node, p);
     flame.grey_absorption_per_m = node.optional_number("absorption_per_m", Range::between(0.0, 1e4));
     flame.radiant_fraction = node.optional_number("radiant_fraction", Range{0.0, 0.9, true});

@@ -75,7 +75,8 @@ struct SurfaceSettings {
 struct FlameSettings {
     fire::FlameParameters parameters;
     FlameGas gas;
-    bool hot_gas = true;  ///< gas and alkali lines absorb and emit beside the soot; thesis physics: soot alone
+    std::optional<double> pressure_Pa;  ///< of the flame gas; else the standard atmosphere's at the ground's elevation
+    bool hot_gas = true;                ///< gas and alkali lines absorb and emit beside the soot; thesis physics: soot alone
     std::optional<double> grey_absorption_per_m;  ///< wavelength-independent absorption instead of soot
     bool off = false;                             ///< no flames at all
     std::optional<double> radiant_fraction;       ///< (front + flame) / heat released, to be met by scaling the flame

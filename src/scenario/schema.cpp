@@ -273,9 +273,11 @@ constexpr const char* kSchema = R"json({
             "x_CO": {"$ref": "#/$defs/mole_fraction", "default": 0.02},
             "x_CH4": {"$ref": "#/$defs/mole_fraction", "default": 0},
             "x_O2": {"$ref": "#/$defs/mole_fraction", "default": 0.03},
-            "potassium_ppm": {"type": "number", "minimum": 0, "maximum": 1000, "default": 1}
+            "potassium_ppm": {"type": "number", "minimum": 0, "maximum": 1000, "default": 1},
+            "sodium_ppm": {"type": "number", "minimum": 0, "maximum": 1000, "default": 0}
           }
         },
+        "pressure_Pa": {"type": "number", "minimum": 10000, "maximum": 120000, "description": "of the flame gas; default: standard atmosphere at the ground"},
         "hot_gas": {"type": "boolean", "description": "gas and alkali lines beside soot; default: true, with physics thesis false"},
         "absorption_per_m": {"type": "number", "minimum": 0, "maximum": 1e4, "description": "grey, instead of soot"},
         "voxel_m": {"type": "array", "minItems": 3, "maxItems": 3, "default": [5, 5, 1],

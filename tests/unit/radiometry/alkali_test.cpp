@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/constants.h"
+#include "radiometry/flame_optics.h"
 #include "radiometry/planck.h"
 #include "radiometry/soot.h"
 #include "radiometry/voigt.h"
@@ -109,6 +110,42 @@ TEST(Alkali, MatchesEveryCheckValue) {
             EXPECT_NEAR(ratio - 1.0, expected - 1.0, 0.02 * (expected - 1.0) + 2e-4) << column.name;
         }
     }
+}
+
+// Thin limit in closed form: W = sum over lines of e^2 f lambda^2 / (4 eps0 m_e c^2) N L (1 - exp(-c2 / lambda T)); sodium and
+// pressure (which only widens) by themselves.
+TEST(Alkali, ThinSodiumHasItsClosedForm) {
+    const double T_K = 1200.0, x_path_m = 1e-12, classical_m = 2.8179403e-15 * kPi;  // pi r_e
+    for (const double pressure_atm : {1.0, 0.7}) {
+        double W_um = 0.0;
+        for (const auto& line : shipped().sodium) {
+            const double lambda_m = 1e-6 * line.wavelength_um,
+                         atoms_m2 = x_path_m * pressure_atm * 101325.0 / (1.380649e-23 * T_K);
+            W_um += 1e6 * classical_m * line.oscillator_strength * lambda_m * lambda_m * atoms_m2 *
+                    -std::expm1(-14387.77 / (line.wavelength_um * T_K));
+        }
+        EXPECT_NEAR(equivalent_width_um(shipped().sodium, x_path_m, T_K, pressure_atm) / W_um, 1.0, 0.01) << pressure_atm;
+    }
+}
+
+TEST(Alkali, SodiumLinesStandAtTheirPlaceInAFlame) {
+    const auto optics = load_flame_optics(source_folder() / "data/optical");
+    FlameGas gas, with = gas;
+    with.sodium_ppm = 1.0;
+    const auto depth = [&](const FlameGas& g, double lambda_um) {
+        FlamePath path(optics, lambda_um);
+        path.add(1.0, 1100.0, g);
+        return path.depth();
+    };
+    EXPECT_GT(depth(with, 0.589158326), 300.0);
+    EXPECT_NEAR(depth(with, 0.65), depth(gas, 0.65), 1e-12);
+}
+
+// U.S. Standard Atmosphere 1976, table: 1500 m 845.6 hPa, 5000 m 540.5 hPa.
+TEST(Pressure, FollowsTheStandardAtmosphere) {
+    EXPECT_NEAR(standard_pressure_Pa(0.0), 101325.0, 1e-9);
+    EXPECT_NEAR(standard_pressure_Pa(1500.0), 84560.0, 20.0);
+    EXPECT_NEAR(standard_pressure_Pa(5000.0), 54048.0, 40.0);
 }
 
 }  // namespace

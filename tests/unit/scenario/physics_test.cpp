@@ -130,4 +130,12 @@ TEST(Physics, ExclusiveKeysAreNotBothAccepted) {
               Lines{"8: atmosphere: give 'model' and 'visibility_km', or 'file', not both"});
 }
 
+TEST(Flame, SodiumAndPressureAreRead) {
+    const ScenarioFolder folder;
+    const Scenario s = folder.load(shortest("flame: {composition: {sodium_ppm: 0.4}, pressure_Pa: 80000}\n"));
+    EXPECT_EQ(s.flame.gas.sodium_ppm, 0.4);
+    EXPECT_EQ(s.flame.pressure_Pa, 80000.0);
+    EXPECT_FALSE(folder.load(shortest("")).flame.pressure_Pa.has_value());
+}
+
 }  // namespace pyroscene::scenario
