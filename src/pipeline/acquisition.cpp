@@ -137,8 +137,7 @@ FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const
     FireScene scene;
     scene.surface = fire::surface_at(state, time_s, scenario.fire, refinement);
     scene.gas = scenario.flame.gas;
-    scene.gas.pressure_Pa = scenario.flame.pressure_Pa.value_or(
-        radiometry::standard_pressure_Pa(scenario.atmosphere.ground_elevation_m.value_or(in.mean_height_m)));
+    scene.gas.pressure_Pa = scenario.flame.pressure_Pa.value_or(radiometry::standard_pressure_Pa(in.mean_height_m));
     scene.plume = make_plume(scenario, in, time_s);
     if (scenario.flame.off) return scene;
     const auto columns = fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters,

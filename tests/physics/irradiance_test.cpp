@@ -44,6 +44,39 @@ TEST(GroundLight, WallOfFlameHasItsViewFactor) {
     }
 }
 
+TEST(GroundLight, DiskOfFlameOverheadHasItsViewFactor) {
+    // An opaque disk of radius R at height h, parallel to the ground, seen from below at distance a from its axis (Howell,
+    // configuration B-13):  F = (1 - (1 + H^2 - r^2) / sqrt((1 + H^2 + r^2)^2 - 4 r^2)) / 2,  H = h / a, r = R / a.
+    const double radius_m = 40.0, height_m = 50.0;
+    TestScene scene({.cols = 41, .rows = 41, .cell_m = 4.0, .ground_K = 300.0, .absorption_per_m = 100.0});
+    std::vector<fire::FlameVoxel> disk;
+    for (int j = 0; j < 80; ++j)
+        for (int i = 0; i < 80; ++i)
+            if (std::hypot(i + 0.5 - 40.0, j + 0.5 - 40.0) < radius_m) disk.push_back({i, j, 0, 1.0F, 1000.0F});
+    scene.set_flame({.corner_m = {42.0, 42.0, height_m}, .nx = 80, .ny = 80, .dx_m = 1.0, .dy_m = 1.0, .dz_m = 0.25}, disk);
+    const auto light = render::ground_irradiance(scene.scene(), {.directions = 256, .reach_m = 150.0});
+    for (const int off : {0, 5, 10, 17}) {  // cells of 4 m east of the axis
+        const double a = std::max(4.0 * off, 1e-3), H2 = height_m * height_m / (a * a), r2 = radius_m * radius_m / (a * a);
+        const double F = 0.5 * (1.0 - (1.0 + H2 - r2) / std::sqrt((1.0 + H2 + r2) * (1.0 + H2 + r2) - 4.0 * r2));
+        EXPECT_NEAR(irradiance_at(light, 20, 20 + off) / (kPi * planck_radiance(4.0, 1000.0) * F), 1.0, 0.01) << a << " m";
+    }
+}
+
+TEST(GroundLight, WallOfFlameWithinOnePercent) {
+    // The wall of the test above with as many directions as the claim needs, and away from its foot.
+    TestScene scene({.cols = 40, .rows = 80, .cell_m = 5.0, .ground_K = 300.0, .absorption_per_m = 100.0});
+    scene.set_flame({.corner_m = {150.0, 0.0, 0.0}, .nx = 1, .ny = 100, .dx_m = 4.0, .dy_m = 4.0, .dz_m = 4.0},
+                    box_of_voxels(1, 100, 5, 1000.0));
+    const auto light = render::ground_irradiance(scene.scene(), {.directions = 256});
+    for (const int col : {0, 10, 20, 26}) {
+        const double distance_m = 150.0 - (col + 0.5) * 5.0;
+        EXPECT_NEAR(
+            irradiance_at(light, 40, col) / (kPi * planck_radiance(4.0, 1000.0) * wall_view_factor(distance_m, 20.0, 200.0)),
+            1.0, 0.01)
+            << distance_m;
+    }
+}
+
 TEST(GroundLight, SlopesTurnedToTheWallReceiveMore) {
     // Ground rising 20 degrees towards the south: its normal leans north. A long high wall in the north fills all that
     // is north of the zenith: F = (1 + cos a) / 2 with a the angle between normal and wall plane seen from above.
