@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/fire_energy.h"
 #include "base/csv.h"
 #include "base/files.h"
 #include "gis/geodesy.h"
@@ -237,6 +239,29 @@ void show_power(HtmlPage& page, const SceneInputs& inputs, const RunOptions& opt
         "sees (true, without noise and background; less where the image does not hold the whole fire).");
 }
 
+/// Energy that the images of one sensor saw radiated, where there are two or more of different times.
+void show_radiative_energy(HtmlPage& page, const std::vector<ShownImage>& images) {
+    std::map<std::string, std::map<double, double>> power_MW;  // by sensor, then by time
+    for (const auto& shown : images)
+        if (shown.digest.seen_frp_MW)
+            power_MW[shown.image->sensor + ", " + shown.image->group][shown.image->acquisition->time_s] =
+                *shown.digest.seen_frp_MW;
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [sensor, series] : power_MW) {
+        if (series.size() < 2) continue;
+        std::vector<double> time_s, MW;
+        for (const auto& [t_s, power] : series) {
+            time_s.push_back(t_s);
+            MW.push_back(power);
+        }
+        rows.push_back({sensor, std::to_string(series.size()), number(time_s.front() / 60.0), number(time_s.back() / 60.0),
+                        number(1e-3 * analysis::fire_radiative_energy(time_s, MW).back())});
+    }
+    if (rows.empty()) return;
+    page.table({"fire radiative energy", "images", "from min", "to min", "GJ"}, rows);
+    page.paragraph("Seen fire radiative power, integrated over time by trapezoids between images.");
+}
+
 void show_energy(HtmlPage& page, const RunReport& report, const std::vector<ShownImage>& images) {
     const auto values = report.values();
     std::vector<std::vector<std::string>> rows;
@@ -249,6 +274,7 @@ void show_energy(HtmlPage& page, const RunReport& report, const std::vector<Show
     }
     page.heading(2, "Energy budget", "energy");
     page.table({"image", "heat release MW", "front MW", "flame MW", "scar MW", "radiant fraction %", "seen FRP MW"}, rows);
+    show_radiative_energy(page, images);
     const double heat_J = energy(values, "inputs", "heat_released_J"), fuel_J = energy(values, "inputs", "fuel_heat_J");
     if (std::isfinite(heat_J))
         page.paragraph(fmt::format(

@@ -63,6 +63,31 @@ TEST(RunReportPage, HoldsTheRunAndNeedsNothingElse) {
     EXPECT_EQ(budget(read_text_file(page)), budget(html));
 }
 
+TEST(RunReportPage, IntegratesThePowerThatOneSensorSaw) {
+    const ScratchFolder scratch;
+    for (const auto* file : {"camera.yaml", "dem.tif", "heat_flux.tif"})
+        std::filesystem::copy(source_folder() / "scenarios/minimal" / file, scratch / file);
+    auto text = read_text_file(source_folder() / "scenarios/minimal/scenario.yaml");
+    const auto from = text.find("acquisitions:");
+    text = text.substr(0, from) +
+           "acquisitions:\n"
+           "  - {id: a, sensor: camera.yaml, time_s: 60, platform: {over: centre, altitude_agl_m: 500}}\n"
+           "  - {id: b, sensor: camera.yaml, time_s: 150, platform: {over: centre, altitude_agl_m: 500}}\n"
+           "products: [radiance, truth, frp, report]\n";
+    write_text_file(scratch / "scenario.yaml", text);
+    const auto result =
+        pyroscene_cli("-q run " + (scratch / "scenario.yaml").string() + " -o " + (scratch / "out").string());
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    double MW[2] = {0.0, 0.0};
+    for (int k = 0; k < 2; ++k)
+        for (const double v : plane(gis::read_image(scratch / (k == 0 ? "out/a/frp.tif" : "out/b/frp.tif")), 1))
+            if (std::isfinite(v)) MW[k] += v;
+    const auto html = read_text_file(scratch / "out/report.html");
+    EXPECT_NE(html.find(fmt::format("<td>2</td><td>1</td><td>2.5</td><td>{:.4g}</td>", 1e-3 * 90.0 * (MW[0] + MW[1]) / 2.0)),
+              std::string::npos)
+        << MW[0] << " " << MW[1];
+}
+
 TEST(RunReportPage, IsAProductThatCanBeLeftOut) {
     const ScratchFolder scratch;
     for (const auto* file : {"camera.yaml", "dem.tif", "heat_flux.tif"})
