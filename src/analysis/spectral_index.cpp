@@ -144,13 +144,11 @@ RobustStatistics robust_statistics(std::span<const float> values) {
 }
 
 IndexDetection detect_by_index(std::span<const float> values, std::span<const unsigned char> dark,
-                               const SpectralIndex& index, const std::optional<double>& threshold, double deviations) {
+                               const SpectralIndex& index, const IndexRule& rule) {
     IndexDetection out;
-    out.scene = robust_statistics(values);
-    const auto lit = std::count_if(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
-    if (std::count(dark.begin(), dark.end(), 1) > lit) out.scene = {index.least_value, 0.0};
-    const double by_scene = out.scene.median + std::max(deviations * out.scene.deviation, index.least_excess);
-    out.threshold = threshold.value_or(std::max(by_scene, index.least_value));
+    out.scene = rule.night ? RobustStatistics{index.least_value, 0.0} : robust_statistics(values);
+    const double by_scene = out.scene.median + std::max(rule.deviations * out.scene.deviation, index.least_excess);
+    out.threshold = rule.threshold.value_or(std::max(by_scene, index.least_value));
     out.result.fire.assign(values.size(), FireClass::Clear);
     out.result.confidence_percent.assign(values.size(), kNaN);
     out.result.background_mir_K.assign(values.size(), kNaN);

@@ -51,9 +51,18 @@ struct RobustStatistics {
 };
 RobustStatistics robust_statistics(std::span<const float> values);
 
-/// Fire where the index lies above `threshold`; nominal, and high above twice its distance from the median. Confidence 50 to 100 %.
-/// Without a threshold: median + max(`deviations` x scatter, least excess of the index), but not below its least value. Where more
-/// than half of the pixels are dark the others are no background: least value + least excess. NaN: not processed, or dark.
+/// When an index is fire.
+struct IndexRule {
+    std::optional<double>
+        threshold{};  ///< default by day: median of the scene + max(`deviations` x its scatter, least excess of the
+                      ///< index), but not below its least value; by night, when all that is lit is lit by fire:
+                      ///< least value + least excess
+    double deviations = 6.0;
+    bool night = false;
+};
+
+/// Fire where the index lies above the threshold; nominal, and high above twice its distance from the median. Confidence 50 to 100 %.
+/// NaN: not processed, or without fire where `dark`.
 /// \param dark  1 = too dark for an index, per pixel; empty = none
 struct IndexDetection {
     Detection result;
@@ -61,7 +70,7 @@ struct IndexDetection {
     double threshold = 0.0;
 };
 IndexDetection detect_by_index(std::span<const float> values, std::span<const unsigned char> dark,
-                               const SpectralIndex& index, const std::optional<double>& threshold, double deviations);
+                               const SpectralIndex& index, const IndexRule& rule);
 
 /// Burn severity from dNBR = NBR before - NBR after: Key and Benson 2006 (FIREMON, table LA-1). Class 0 = no data.
 struct SeverityClass {

@@ -140,6 +140,20 @@ Detection contextual(ImageChannels& image, Scene& scene, DetectReport& report) {
     return viirs ? analysis::detect_viirs375(planes) : analysis::detect_mod14(planes);
 }
 
+/// Whether the sun is down over the middle of the image; an image without a time is taken for one by day.
+bool by_night(const gis::ImageInfo& info, Scene& scene) {
+    const bool known = scene.job.sun_zenith_deg || !metadata_item(info, "ACQUISITION_DATE").empty();
+    if (!known) return false;
+    scene.sun_zenith_deg = sun_of_image(scene.job.image, info, scene.where, scene.job.sun_zenith_deg).zenith_deg;
+    auto zenith_deg = scene.sun_zenith_deg;
+    std::erase_if(zenith_deg, [](float v) { return !std::isfinite(v); });
+    if (zenith_deg.empty()) return false;
+    const auto middle = zenith_deg.begin() + static_cast<std::ptrdiff_t>(zenith_deg.size() / 2);
+    std::nth_element(zenith_deg.begin(), middle, zenith_deg.end());
+    constexpr float kNight_deg = 90.0F;
+    return *middle > kNight_deg;
+}
+
 Detection by_index(ImageChannels& image, Scene& scene, DetectReport& report) {
     const DetectJob& job = scene.job;
     const auto& index = *analysis::find_spectral_index(job.method);
@@ -148,7 +162,8 @@ Detection by_index(ImageChannels& image, Scene& scene, DetectReport& report) {
     scene.tested = std::move(made.values);
     scene.tested_name = job.method;
     scene.tested_unit = index.kind == analysis::SpectralIndex::Kind::Difference ? "W m-2 sr-1 um-1" : "1";
-    auto found = analysis::detect_by_index(scene.tested, made.dark, index, job.threshold, job.deviations);
+    auto found = analysis::detect_by_index(scene.tested, made.dark, index,
+                                           {job.threshold, job.deviations, by_night(image.info(), scene)});
     report.threshold = found.threshold;
     if (const int mir = image.find(kMirModis); mir > 0) read_mir(image, mir, scene);
     return std::move(found.result);

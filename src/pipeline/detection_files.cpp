@@ -124,8 +124,11 @@ analysis::DetectionScore score(const DetectionScene& scene, const std::filesyste
     auto area_m2 = plane("fraction_flame");
     const auto front = plane("fraction_front");
     auto power_MW = plane("fire_radiant_exitance");
+    const auto ground_K = plane("ground_temperature");
+    constexpr float kHot_K = 400.0F, kNeither_m2 = 1e-6F;  // ground this hot is no fire, and calling it one no false alarm
     for (std::size_t i = 0; i < area_m2.size(); ++i) {
         area_m2[i] = (area_m2[i] + front[i]) * scene.where.area_m2[i];
+        if (area_m2[i] == 0.0F && ground_K[i] > kHot_K) area_m2[i] = kNeither_m2;
         power_MW[i] *= scene.where.area_m2[i] * 1e-6F;
     }
     return analysis::score_detection(fire, area_m2, power_MW, info.cols, scene.job.least_area_m2);

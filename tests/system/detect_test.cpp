@@ -53,7 +53,7 @@ gis::OutputRaster raster(std::vector<gis::OutputBand> bands) {
 
 /// 102 400 pixels of 1 km2 at 300 K with the noise of MODIS, and its truth.
 void write_scene(const ScratchFolder& scratch) {
-    std::vector<float> pixels, truth(3 * kCols * kRows, 0.0F);
+    std::vector<float> pixels, truth(4 * kCols * kRows, 0.0F);
     std::vector<gis::OutputBand> bands;
     std::mt19937_64 random(11);
     std::normal_distribution<double> normal;
@@ -74,7 +74,10 @@ void write_scene(const ScratchFolder& scratch) {
     }
     gis::write_geotiff(scratch / "radiance.tif", raster(bands), std::span<const float>(pixels));
     gis::write_geotiff(scratch / "truth.tif",
-                       raster({{"fraction_flame", "1"}, {"fraction_front", "1"}, {"fire_radiant_exitance", "W m-2"}}),
+                       raster({{"fraction_flame", "1"},
+                               {"fraction_front", "1"},
+                               {"fire_radiant_exitance", "W m-2"},
+                               {"ground_temperature", "K"}}),
                        std::span<const float>(truth));
 }
 
@@ -223,6 +226,46 @@ TEST_F(PlantedFires, AreFoundByViirsUnderSmoke) {
         score("smoke.yaml", " --acquisition viirs", (scratch / "viirs/radiance.tif").string() + " --method viirs375");
     expect_found(found);
     EXPECT_GT(found["by_area_m2"][1]["found"], 10);  // from 29 m2 on
+}
+
+/// The minimal scenario as AVIRIS sees it, by day or by night, with much potassium in the flames.
+void render_aviris(const ScratchFolder& scratch, const std::string& start) {
+    const auto inputs = (source_folder() / "scenarios/minimal/").string();
+    write_text_file(
+        scratch / "aviris.yaml",
+        "pyroscene: 1\nname: aviris\ninputs:\n  terrain: {file: " + inputs + "dem.tif}\n  heat_flux: {file: " + inputs +
+            "heat_flux.tif}\n  wind: {speed: 3, from_deg: 270}\nstart: " + start +
+            "\nflame: {composition: {potassium_ppm: 10}}\nproducts: [radiance, truth]\nacquisitions:\n"
+            "  - {id: a, sensor: aviris-classic, time_s: 125, platform: {over: centre, altitude_agl_m: 4000}, bands: "
+            "[\"43\", \"45\", \"46\", \"165\", \"169\", \"173\", \"175\", \"178\", \"180\", \"217\"]}\n");
+    const auto run = pyroscene_cli("run -q " + (scratch / "aviris.yaml").string() + " -o " + (scratch / "out").string());
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+}
+
+nlohmann::json score_index(const ScratchFolder& scratch, const std::string& method) {
+    const auto result = pyroscene_cli("detect -q --method " + method + " " + (scratch / "out/a/radiance.tif").string() +
+                                      " -o " + (scratch / "f.tif").string());
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return nlohmann::json::parse(read_text_file(scratch / "f_scores.json"));
+}
+
+TEST(DetectCommand, FindsRenderedFlamesBySpectralIndices) {
+    const ScratchFolder day, night;
+    render_aviris(day, "2021-08-12T20:00:00Z");
+    for (const std::string method : {"hfdi", "co2", "aviris-co2"}) {
+        const auto score = score_index(day, method);
+        EXPECT_GT(score["true_pixels"], 50);
+        EXPECT_LE(score["omission"], 0.1) << method;
+        EXPECT_EQ(score["false_alarms"], score["false_alarms_within_2_pixels_of_fire"])
+            << method;  // light of flames on the ground
+        EXPECT_LE(score["commission"], 0.15) << method;
+    }
+    // Potassium at 1100 K is darker than sunlit ground at 768 nm (18 against 60 W m-2 sr-1 um-1): it shines by night only.
+    EXPECT_EQ(score_index(day, "k-line")["detected"], 0);
+    render_aviris(night, "2021-08-12T08:00:00Z");
+    const auto line = score_index(night, "k-line");
+    EXPECT_GT(line["found"], 10);
+    EXPECT_EQ(line["false_alarms"], line["false_alarms_within_2_pixels_of_fire"]);
 }
 
 }  // namespace

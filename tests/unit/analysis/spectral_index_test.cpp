@@ -56,7 +56,7 @@ TEST(DetectByIndex, FindsWhatStandsOutAndNothingInNoise) {
     std::normal_distribution<float> normal(-0.4F, 0.02F);
     std::vector<float> values(100000);
     for (float& v : values) v = normal(random);
-    const auto quiet = detect_by_index(values, {}, index, {}, 6.0);
+    const auto quiet = detect_by_index(values, {}, index, {});
     EXPECT_NEAR(quiet.scene.median, -0.4, 0.001);
     EXPECT_NEAR(quiet.scene.deviation, 0.02, 0.001);
     const auto count = [](const Detection& d) { return std::count_if(d.fire.begin(), d.fire.end(), is_fire); };
@@ -65,17 +65,17 @@ TEST(DetectByIndex, FindsWhatStandsOutAndNothingInNoise) {
     values[17] = -0.12F;  // 14
     values[18] = 0.2F;    // 30
     values[19] = std::nanf("");
-    const auto found = detect_by_index(values, {}, index, {}, 6.0);
+    const auto found = detect_by_index(values, {}, index, {});
     EXPECT_EQ(count(found.result), 2);
     EXPECT_EQ(found.result.fire[17], FireClass::Nominal);
     EXPECT_EQ(found.result.fire[18], FireClass::High);
     EXPECT_EQ(found.result.fire[19], FireClass::NotProcessed);
-    EXPECT_EQ(count(detect_by_index(values, {}, index, 0.0, 6.0).result), 1);
+    EXPECT_EQ(count(detect_by_index(values, {}, index, {.threshold = 0.0}).result), 1);
     // A scene without any scatter: the least excess keeps rounding from being fire.
     std::vector<float> flat(1000, -0.4F);
     flat[5] = -0.395F;
     flat[6] = -0.1F;
-    EXPECT_EQ(count(detect_by_index(flat, {}, index, {}, 6.0).result), 1);
+    EXPECT_EQ(count(detect_by_index(flat, {}, index, {}).result), 1);
     // By night only fires are lit, so that the lit pixels are no background.
     const auto& line = *find_spectral_index("k-line");
     std::vector<float> night(1000, std::nanf(""));
@@ -84,7 +84,7 @@ TEST(DetectByIndex, FindsWhatStandsOutAndNothingInNoise) {
         night[i] = i < 6 ? 0.5F : -0.05F;  // flames, and glowing ground without potassium
         dark[i] = 0;
     }
-    const auto lit = detect_by_index(night, dark, line, {}, 6.0);
+    const auto lit = detect_by_index(night, dark, line, {.night = true});
     EXPECT_EQ(count(lit.result), 6);
     EXPECT_DOUBLE_EQ(lit.threshold, 0.02);
     EXPECT_EQ(lit.result.fire[500], FireClass::Clear);
