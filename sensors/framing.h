@@ -58,4 +58,25 @@ struct PixelSamples {
 };
 PixelSamples pixel_samples(const Psf& across, const Psf& along, int n_per_axis);
 
+/// A point-spread function along one axis, cut into the same `base` strata, each of which may be halved again and again: a
+/// pixel that is larger than what it looks at is sampled finer where there is something to see.
+class PsfShares {
+public:
+    static constexpr int kLevels = 11;
+
+    /// Throws an input error for base < 1 or a width that is not positive.
+    PsfShares(const Psf& psf, int base);
+
+    struct Share {
+        double centre = 0.0;  ///< centroid, from the pixel's centre [samples]
+        double width = 0.0;   ///< twice the way from the centroid to the nearer end
+    };
+    /// Share `index` of base x 2^level equal ones, level 0 to kLevels.
+    [[nodiscard]] Share share(int level, int index) const noexcept;
+
+private:
+    int base_ = 1;
+    std::vector<double> end_, moment_below_;  ///< [base x 2^kLevels + 1] of the finest shares
+};
+
 }  // namespace pyroscene::sensors

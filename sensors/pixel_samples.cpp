@@ -71,35 +71,68 @@ std::vector<double> centroids(const Distribution& distribution, int n) {
     return point;
 }
 
-std::vector<double> axis_points(const Psf& psf, int n) {
+/// What `use` makes of the distribution along one axis.
+template <class Use>
+auto with_distribution(const Psf& psf, Use&& use) {
     if (psf.shape != Psf::Shape::None && !(psf.width_samples > 0.0))
         throw input_error("psf", fmt::format("width {} samples, expected more than 0", psf.width_samples));
     switch (psf.shape) {
-        case Psf::Shape::None:
-            return centroids(TwoBoxes(1.0, 0.0), n);
         case Psf::Shape::Box:
-            return centroids(TwoBoxes(psf.width_samples, 0.0), n);
+            return use(TwoBoxes(psf.width_samples, 0.0));
         case Psf::Shape::Triangle:
-            return centroids(TwoBoxes(0.5 * psf.width_samples, 0.5 * psf.width_samples), n);
+            return use(TwoBoxes(0.5 * psf.width_samples, 0.5 * psf.width_samples));
         case Psf::Shape::Trapezoid:
-            return centroids(TwoBoxes(psf.width_samples, psf.second_width_samples), n);
+            return use(TwoBoxes(psf.width_samples, psf.second_width_samples));
         case Psf::Shape::Gaussian:
-            return centroids(Gaussian(psf.width_samples), n);
+            return use(Gaussian(psf.width_samples));
+        case Psf::Shape::None:
+            break;
     }
-    return {};
+    return use(TwoBoxes(1.0, 0.0));
+}
+
+std::vector<double> axis_points(const Psf& psf, int n) {
+    return with_distribution(psf, [n](const auto& distribution) { return centroids(distribution, n); });
+}
+
+void check_count(int n_per_axis) {
+    if (n_per_axis < 1)
+        throw input_error("samples per pixel axis", fmt::format("found {}, expected at least 1", n_per_axis));
 }
 
 }  // namespace
 
 PixelSamples pixel_samples(const Psf& across, const Psf& along, int n_per_axis) {
-    if (n_per_axis < 1)
-        throw input_error("samples per pixel axis", fmt::format("found {}, expected at least 1", n_per_axis));
+    check_count(n_per_axis);
     const auto sample = axis_points(across, n_per_axis), line = axis_points(along, n_per_axis);
     PixelSamples points;
     for (const double y : line)
         for (const double x : sample) points.offset.push_back({x, y});
     points.weight.assign(points.offset.size(), 1.0 / static_cast<double>(points.offset.size()));
     return points;
+}
+
+PsfShares::PsfShares(const Psf& psf, int base) : base_(base) {
+    check_count(base);
+    const int n = base << kLevels;
+    end_.assign(static_cast<std::size_t>(n) + 1, 0.0);
+    moment_below_ = end_;
+    with_distribution(psf, [&](const auto& distribution) {
+        for (int i = 0; 2 * i <= n; ++i) {  // the right half mirrors the left one
+            const auto left = static_cast<std::size_t>(i), right = static_cast<std::size_t>(n - i);
+            const double end = 2 * i == n ? 0.0 : distribution.quantile(static_cast<double>(i) / n);
+            end_[left] = end;
+            end_[right] = -end;
+            moment_below_[left] = moment_below_[right] = i == 0 ? 0.0 : distribution.first_moment(end);
+        }
+    });
+}
+
+PsfShares::Share PsfShares::share(int level, int index) const noexcept {
+    const auto from = static_cast<std::size_t>(index) << (kLevels - level);
+    const auto to = static_cast<std::size_t>(index + 1) << (kLevels - level);
+    const double centre = (moment_below_[to] - moment_below_[from]) * std::ldexp(base_, level);
+    return {centre, 2.0 * std::min(centre - end_[from], end_[to] - centre)};
 }
 
 }  // namespace pyroscene::sensors

@@ -161,6 +161,21 @@ radiometry::SpectralGrid make_grid(const std::vector<Spectrum>& responses, const
     return radiometry::make_spectral_grid(responses, structure);
 }
 
+/// What the ground around the scene is made of: the surface named in the scenario (added to `names` when the map has none
+/// of it), else the cover that most of the map has; -1 = nothing is known there.
+int surroundings_material(const Scenario& scenario, const SceneInputs& in, std::vector<std::string>& names) {
+    const std::string& wanted = scenario.render.background;
+    if (wanted == "none") return -1;
+    if (wanted != "cover") {
+        const auto found = std::find(names.begin(), names.end(), wanted);
+        if (found == names.end()) names.push_back(wanted);
+        return static_cast<int>(std::find(names.begin(), names.end(), wanted) - names.begin());
+    }
+    std::vector<std::size_t> cells(names.size(), 0);
+    for (const auto material : in.cover.values) cells[material] += 1;
+    return static_cast<int>(std::max_element(cells.begin(), cells.end()) - cells.begin());
+}
+
 }  // namespace
 
 SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& in, const FireScene& fire,
@@ -197,6 +212,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
                         : radiometry::soot_absorption_per_m(soot, lambda_um, fire.gas.soot_volume_fraction)));
 
     auto names = in.cover_names;
+    out.surroundings_material = surroundings_material(scenario, in, names);
     optics.reflectance = ground_reflectance(scenario, names, out.grid);
     names.push_back(scenario.surface.burned);
     optics.material_count = static_cast<int>(names.size());

@@ -48,6 +48,7 @@ struct SpectralScene {
     radiometry::SpectralGrid grid;
     render::SceneOptics optics;
     radiometry::ViewAtmosphere atmosphere;
+    int surroundings_material = -1;  ///< of the ground around the scene; -1 = no data there
 };
 /// \param sensor_agl_m sensor height above the mean terrain  \param sun position at the scene centre
 SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const FireScene& fire,

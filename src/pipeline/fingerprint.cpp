@@ -107,9 +107,9 @@ std::string scene_text(const Scenario& s) {
     out += fmt::format("{}|{}|{}|{};", s.atmosphere.model, s.atmosphere.visibility_km,
                        s.atmosphere.ground_elevation_m.value_or(-1e9),
                        s.atmosphere.file ? sha256_of_file(*s.atmosphere.file) : "");
-    return out + fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", r.samples_per_axis, r.light_directions, r.light_reach_m,
-                             r.point_sources, r.point_source_cut, r.light_bounces, r.light_decay, r.flame_light, r.sun,
-                             s.start.unix_s, s.seed, s.products.truth);
+    return out + fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", r.samples_per_axis, r.light_directions,
+                             r.light_reach_m, r.point_sources, r.point_source_cut, r.light_bounces, r.light_decay,
+                             r.flame_light, r.sun, s.start.unix_s, s.seed, s.products.truth, r.background, r.noise);
 }
 
 std::string plume_text(const Scenario& s) {

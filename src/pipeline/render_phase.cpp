@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -17,8 +18,9 @@ namespace {
 
 using render::RadianceImage;
 
-/// A ray far beside every scene, for pixels that the instrument does not send.
-constexpr render::SceneRay kNowhere{{1e7, 1e7, 1e4}, {1e7, 1e7, 0.0}};
+/// A ray that meets nothing, for pixels that the instrument does not send.
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr render::SceneRay kNowhere{{kNaN, kNaN, kNaN}, {kNaN, kNaN, kNaN}};
 
 /// Sun angles over the scene: exact at the centre, linear in latitude and longitude around it (a few km: < 0.001 deg).
 class LocalSun {
@@ -188,7 +190,8 @@ Measured measure(const GroupJob& job, const RadianceImage& image, RunReport& rep
     Measured out{image.radiance_W_m2_sr_um, std::vector<std::uint8_t>(image.radiance_W_m2_sr_um.size(), 0)};
     const std::size_t n = out.saturated.size() / job.bands.size();
     for (std::size_t k = 0; k < job.bands.size(); ++k) {
-        const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
+        auto band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
+        if (!job.scenario.render.noise) band.noise = {};
         const auto stream = fmt::format("noise/{}/{}", job.acquisition.id, band.id);
         const RandomKey key{job.scenario.seed, stream_id(stream.c_str()), 0};
         const auto count = sensors::apply_detector(band, key, std::span(out.radiance_W_m2_sr_um).subspan(k * n, n),
@@ -251,12 +254,14 @@ void write_truth(const GroupJob& job, const RadianceImage& image, const std::vec
 }
 
 void report_image(const GroupJob& job, const RadianceImage& image, const render::RenderScene& scene, RunReport& report) {
-    const auto rays = static_cast<std::int64_t>(image.coverage.size());
-    report.count("pixels", rays);
+    const auto pixels = static_cast<std::int64_t>(image.coverage.size());
+    report.count("pixels", pixels);
     const auto missed = std::count_if(image.coverage.begin(), image.coverage.end(), [](float c) { return !(c > 0.0F); });
+    if (missed == pixels)
+        throw input_error(fmt::format("acquisition '{}'", job.acquisition.id), "the camera does not see the map at all");
     if (missed > 0)
-        report.warn(fmt::format("acquisition '{}': {} of {} pixels look past the scene and are no data", job.acquisition.id,
-                                missed, rays));
+        report.warn(fmt::format("acquisition '{}': {} of {} pixels look past the scene and {}", job.acquisition.id, missed,
+                                pixels, scene.surroundings ? "show its surroundings (render.background)" : "are no data"));
     report.count("transport_wavelengths/" + job.acquisition.id, scene.optics->lambda_count);
     report.count("flame_bricks/" + job.acquisition.id, static_cast<std::int64_t>(scene.flame->bricks.size()));
     if (render::has_plume(scene))
@@ -284,6 +289,63 @@ render::GroundIrradiance ground_light(const GroupJob& job, const render::RenderS
         report.record(name + "/doubling_changes_cells_by_percent_rms", 100.0 * error.rms_relative);
     }
     return light;
+}
+
+/// Steps on the ground from one edge of a pixel to the other, along the line and across it.
+std::array<Vec3, 2> pixel_steps(const sensors::ScanChords& scan, const sensors::ScanPosition& centre, double width) {
+    const auto step = [&](double u, double v) {
+        const Vec3 d = scan.ends(centre.u + u, centre.v + v).bottom_m - scan.ends(centre.u - u, centre.v - v).bottom_m;
+        return Vec3{d.x, d.y, 0.0};
+    };
+    return {step(0.5 * width, 0.0), step(0.0, 0.5)};
+}
+
+/// The rays of the sensor's pixels: strata of the point-spread function, and their halves for pixels wider than the fire.
+void set_rays(const GroupJob& job, const sensors::ImageChords& chords, render::ImageRequest& request) {
+    const auto &across = job.sensor.psf_across, &along = job.sensor.psf_along;
+    const bool points = across.shape == sensors::Psf::Shape::None && along.shape == sensors::Psf::Shape::None;
+    const int n = points ? 1 : job.scenario.render.samples_per_axis;
+    auto pattern = sensors::pixel_samples(across, along, n);
+    request.rays_per_pixel = n * n;
+    request.ray_weight = pattern.weight;
+    const auto& geometry = job.geometry;
+    request.rays = [&geometry, &chords, pattern = std::move(pattern)](int line, int begin, int end,
+                                                                      std::span<render::SceneRay> out) {
+        const auto scan = chords.scan(sensors::scan_position_of(geometry, begin, line).scan);
+        std::size_t k = 0;
+        for (int sample = begin; sample < end; ++sample) {
+            const bool deleted = sensors::pixel_deleted(geometry, sample, line);
+            const auto centre = sensors::scan_position_of(geometry, sample, line);
+            const double width = sensors::scan_pixel_width(geometry.scan, geometry.first_sample + sample);
+            for (const auto& [dx, dy] : pattern.offset) {
+                const auto ends = scan.ends(centre.u + dx * width, centre.v + dy);
+                out[k++] = deleted ? kNowhere : render::SceneRay{ends.top_m, ends.bottom_m};
+            }
+        }
+    };
+    if (points) return;
+    request.parts_per_axis = n;
+    request.part_levels = sensors::PsfShares::kLevels;
+    request.parts = [&geometry, &chords, shares_u = sensors::PsfShares(across, n),
+                     shares_v = sensors::PsfShares(along, n)](int line) -> render::ImageRequest::PartsOfLine {
+        auto scan = chords.scan(sensors::scan_position_of(geometry, 0, line).scan);
+        return [&geometry, &shares_u, &shares_v, line, scan = std::move(scan)](
+                   int sample, std::span<const render::PixelPart> parts, std::span<render::PartView> out) {
+            if (sensors::pixel_deleted(geometry, sample, line)) {
+                std::fill(out.begin(), out.end(), render::PartView{kNowhere, {}, {}});
+                return;
+            }
+            const auto centre = sensors::scan_position_of(geometry, sample, line);
+            const double width = sensors::scan_pixel_width(geometry.scan, geometry.first_sample + sample);
+            const auto [step_u, step_v] = pixel_steps(scan, centre, width);
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                const auto u = shares_u.share(parts[i].level_u, parts[i].index_u);
+                const auto v = shares_v.share(parts[i].level_v, parts[i].index_v);
+                const auto ends = scan.ends(centre.u + u.centre * width, centre.v + v.centre);
+                out[i] = {{ends.top_m, ends.bottom_m}, u.width * step_u, v.width * step_v};
+            }
+        };
+    };
 }
 
 }  // namespace
@@ -316,30 +378,14 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     scene.to_sun = scenario.render.sun ? sun_direction(sun.centre(), map.convergence_rad(in.origin_m.x, in.origin_m.y))
                                        : Vec3{0.0, 0.0, -1.0};
 
+    if (spectral.surroundings_material >= 0) scene.surroundings = {spectral.surroundings_material, in.mean_height_m};
+
     const auto light = ground_light(job, scene, monitor, report);
 
-    const bool point_sampled =
-        job.sensor.psf_across.shape == sensors::Psf::Shape::None && job.sensor.psf_along.shape == sensors::Psf::Shape::None;
-    const auto pattern = sensors::pixel_samples(job.sensor.psf_across, job.sensor.psf_along,
-                                                point_sampled ? 1 : scenario.render.samples_per_axis);
     render::ImageRequest request;
     request.samples = job.geometry.samples;
     request.lines = job.geometry.lines;
-    request.rays_per_pixel = static_cast<int>(pattern.weight.size());
-    request.ray_weight = pattern.weight;
-    request.rays = [&](int line, int begin, int end, std::span<render::SceneRay> out) {
-        const auto scan = chords.scan(sensors::scan_position_of(job.geometry, begin, line).scan);
-        std::size_t k = 0;
-        for (int sample = begin; sample < end; ++sample) {
-            const bool deleted = sensors::pixel_deleted(job.geometry, sample, line);
-            const auto centre = sensors::scan_position_of(job.geometry, sample, line);
-            const double width = sensors::scan_pixel_width(job.geometry.scan, job.geometry.first_sample + sample);
-            for (const auto& [dx, dy] : pattern.offset) {
-                const auto ends = scan.ends(centre.u + dx * width, centre.v + dy);
-                out[k++] = deleted ? kNowhere : render::SceneRay{ends.top_m, ends.bottom_m};
-            }
-        }
-    };
+    set_rays(job, chords, request);
     const double sun_azimuth_rad = sun.centre().azimuth_rad;
     request.view = [&](int line, int sample, Vec3) {
         const auto position = sensors::scan_position_of(job.geometry, sample, line);
@@ -360,8 +406,6 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     const PhaseTimer timer(report, "render/write");
     const auto planes = geolocate(image, job.geometry, chords, sun);
     const auto points = control_points(image, planes);
-    if (points.empty())
-        throw input_error(fmt::format("acquisition '{}'", job.acquisition.id), "the camera does not see the map at all");
     write_geolocation(job, planes);
     if (monitor.is_cancelled()) throw Cancelled();
     const auto measured = measure(job, image, report);

@@ -43,7 +43,7 @@ void BandOutput::compute(const Pixel& pixel, const PixelView& view, float* total
         for (std::size_t i = 0; i < path_.size(); ++i)
             path_[i] = view_.path_thermal[i] + view_.path_solar[i] + view_.adjacency[i];
     }
-    const auto scale = static_cast<float>(1.0 / pixel.truth().coverage);
+    const auto scale = static_cast<float>(1.0 / pixel.truth().seen);
     const GroundSpectra& ground = pixel.ground();
     std::array<const float*, 7> parts{pixel.flame(), ground.part(GroundSpectra::Emission)};
     int count = 2;

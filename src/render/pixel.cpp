@@ -43,22 +43,37 @@ void Pixel::begin() {
     flame_used_ = ground_used_ = false;
 }
 
-void Pixel::add_ray(const SceneRay& ray, double weight) {
-    const auto hit = prepared_->scene.terrain->intersect(ray.start_m, ray.end_m);
-    if (!hit) return;
+std::optional<Pixel::Met> Pixel::meet(const SceneRay& ray) const {
     const PreparedScene& p = *prepared_;
-    const GroundCell ground = ground_cell(p.scene, p.tables, hit->point_m);
-    if (!(ground.base_K > 0.0)) return;  // no data
-    truth_.coverage += weight;
-    truth_.hit_m = truth_.hit_m + weight * hit->point_m;
+    if (const auto hit = p.scene.terrain->intersect(ray.start_m, ray.end_m)) {
+        const GroundCell ground = ground_cell(p.scene, p.tables, hit->point_m);
+        if (ground.base_K > 0.0) return Met{*hit, ground, true};
+    }
+    if (!p.scene.surroundings) return std::nullopt;
+    const auto& level = *p.scene.surroundings;
+    const double f = (ray.start_m.z - level.height_m) / (ray.start_m.z - ray.end_m.z);
+    if (!(f >= 0.0 && f <= 1.0)) return std::nullopt;  // looks nowhere, or never comes down
+    const Vec3 step_m = f * (ray.end_m - ray.start_m);
+    return Met{{length(step_m), ray.start_m + step_m, {0.0, 0.0, 1.0}},
+               {.base_material = level.material, .base_K = static_cast<double>(p.tables.ambient_K)},
+               false};
+}
 
-    if (smoke_ray_ && smoke_ray_->march(ray.start_m, hit->point_m)) {
+void Pixel::add(const SceneRay& ray, const Met& met, double weight) {
+    const PreparedScene& p = *prepared_;
+    const Vec3 hit_m = met.hit.point_m;
+    const GroundCell& ground = met.ground;
+    truth_.seen += weight;
+    if (met.scene) truth_.coverage += weight;
+    truth_.hit_m = truth_.hit_m + weight * hit_m;
+
+    if (smoke_ray_ && smoke_ray_->march(ray.start_m, hit_m)) {
         add_ground_truth(ground, weight * mixed_truth(weight));
-        add_mixed(weight, ground, light_at(*hit));
+        add_mixed(weight, ground, light_at(met));
         return;
     }
-    march(ray.start_m, hit->point_m);
-    const GroundLight light = light_at(*hit);
+    march(ray.start_m, hit_m);
+    const GroundLight light = light_at(met);
     if (pieces_.empty()) {
         add_ground_truth(ground, weight);
         add_ground(p.tables, ground, weight, light, mix_);
@@ -71,15 +86,19 @@ void Pixel::add_ray(const SceneRay& ray, double weight) {
         add_flame_spectrally(weight, ground, light);
 }
 
-GroundLight Pixel::light_at(const TerrainMesh::Hit& hit) const {
+GroundLight Pixel::light_at(const Met& met) const {
     const RenderScene& scene = prepared_->scene;
     GroundLight light;
-    if (prepared_->flame_light != nullptr) {
-        light_around(*prepared_->flame_light, hit.point_m.x + scene.scene_origin_m.x, hit.point_m.y + scene.scene_origin_m.y,
-                     light);
+    if (!met.scene) {
+        if (prepared_->tables.has_sun) light.sun_cosine = std::max(0.0, scene.to_sun.z);
+        return light;
     }
-    if (prepared_->tables.has_sun) light.sun_cosine = sun_cosine(scene, hit);
-    if (prepared_->smoke) light.smoke = prepared_->smoke->shadow.at(hit.point_m);
+    const Vec3 point_m = met.hit.point_m;
+    if (prepared_->flame_light != nullptr) {
+        light_around(*prepared_->flame_light, point_m.x + scene.scene_origin_m.x, point_m.y + scene.scene_origin_m.y, light);
+    }
+    if (prepared_->tables.has_sun) light.sun_cosine = sun_cosine(scene, met.hit);
+    if (prepared_->smoke) light.smoke = prepared_->smoke->shadow.at(point_m);
     return light;
 }
 

@@ -34,8 +34,9 @@ struct PreparedScene {
 
 /// What the rays of one pixel met, as sums of ray weights; opacities and transmittances of flame are those at 4.0 um.
 struct PixelTruth {
-    double coverage = 0.0;
-    Vec3 hit_m;  ///< weighted sum
+    double coverage = 0.0;  ///< that met the scene
+    double seen = 0.0;      ///< that met the scene or its surroundings
+    Vec3 hit_m;             ///< weighted sum
     double flame = 0.0, smoke = 0.0, front = 0.0, scar = 0.0, background = 0.0;
     double flame_T4 = 0.0;   ///< sum of (tau_i - tau_{i+1}) T^4
     double ground_T4 = 0.0;  ///< sum of tau T^4
@@ -48,9 +49,20 @@ public:
     explicit Pixel(const PreparedScene& prepared);
 
     void begin();
-    /// Traces one sub-ray: terrain, flame, ground (eq 4.11 with the ground term).
-    void add_ray(const SceneRay& ray, double weight);
-    /// Turns all gathered weights into the spectra `flame` and `ground`: sums over covered rays.
+    /// Ground that a sub-ray ends on.
+    struct Met {
+        TerrainMesh::Hit hit;
+        GroundCell ground;
+        bool scene = true;  ///< false: the surroundings
+    };
+    /// nullopt where there is neither scene nor surroundings.
+    [[nodiscard]] std::optional<Met> meet(const SceneRay& ray) const;
+    /// Adds one sub-ray: flame, and ground behind it (eq 4.11 with the ground term).
+    void add(const SceneRay& ray, const Met& met, double weight);
+    void add_ray(const SceneRay& ray, double weight) {
+        if (const auto met = meet(ray)) add(ray, *met, weight);
+    }
+    /// Turns all gathered weights into the spectra `flame` and `ground`: sums over rays that saw something.
     void finish();
 
     [[nodiscard]] const PixelTruth& truth() const noexcept { return truth_; }
@@ -66,7 +78,7 @@ private:
         float temperature_K;
         double fill_length_m;  ///< length x filled fraction
     };
-    [[nodiscard]] GroundLight light_at(const TerrainMesh::Hit& hit) const;
+    [[nodiscard]] GroundLight light_at(const Met& met) const;
     void march(Vec3 start_m, Vec3 hit_m);
     double flame_truth(double weight);
     double add_grey_flame(double weight);

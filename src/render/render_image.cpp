@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "render/band_output.h"
 #include "render/parallel.h"
 #include "render/pixel.h"
+#include "render/pixel_parts.h"
 #include "render/scene.h"
 
 namespace pyroscene::render {
@@ -29,6 +31,10 @@ void check_request(const ImageRequest& request) {
                                                request.ray_weight.size(), request.rays_per_pixel));
     }
     if (!request.rays) throw input_error("image", "no source of rays");
+    if (request.parts && request.parts_per_axis * request.parts_per_axis != request.rays_per_pixel) {
+        throw input_error("image", fmt::format("{} shares along an axis of a pixel, expected the root of {} rays",
+                                               request.parts_per_axis, request.rays_per_pixel));
+    }
 }
 
 /// Terms of the scene: the last ones belong to plumes.
@@ -59,9 +65,9 @@ RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request)
 }
 
 void write_truth(const PixelTruth& truth, std::size_t at, RadianceImage& image) {
-    const double covered = truth.coverage;
-    const auto share = [&](double sum) { return covered > 0.0 ? sum / covered : static_cast<double>(kNaN); };
-    image.coverage[at] = static_cast<float>(covered);
+    const double seen = truth.seen;
+    const auto share = [&](double sum) { return seen > 0.0 ? sum / seen : static_cast<double>(kNaN); };
+    image.coverage[at] = static_cast<float>(truth.coverage);
     image.hit_x_m[at] = share(truth.hit_m.x);
     image.hit_y_m[at] = share(truth.hit_m.y);
     image.hit_z_m[at] = share(truth.hit_m.z);
@@ -81,34 +87,41 @@ void write_truth(const PixelTruth& truth, std::size_t at, RadianceImage& image) 
 /// Renders tiles: kTileSamples pixels of one line. One per thread.
 class TileRenderer {
 public:
-    TileRenderer(const PreparedScene& prepared, const ImageRequest& request)
+    /// \param detail  null: the rays of the request as they are
+    TileRenderer(const PreparedScene& prepared, const ImageRequest& request, const FireDetail* detail)
         : request_(request),
           bands_(prepared.scene.spectral->band_count()),
           quantities_(request.terms ? 1 + term_count(prepared.scene) : 1),
           pixel_(prepared),
           output_(prepared, request.terms),
           rays_(static_cast<std::size_t>(kTileSamples) * static_cast<std::size_t>(request.rays_per_pixel)),
-          buffer_(static_cast<std::size_t>(kTileSamples) * static_cast<std::size_t>(quantities_ * bands_)) {}
+          buffer_(static_cast<std::size_t>(kTileSamples) * static_cast<std::size_t>(quantities_ * bands_)) {
+        if (detail != nullptr) parts_.emplace(*detail, request);
+    }
 
     void render(int line, int begin, int end, RadianceImage& image) {
         const auto rays_per_pixel = static_cast<std::size_t>(request_.rays_per_pixel);
         const std::span<SceneRay> rays(rays_.data(), static_cast<std::size_t>(end - begin) * rays_per_pixel);
-        request_.rays(line, begin, end, rays);
+        const bool by_parts = parts_ && parts_->begin(line, begin, end);
+        if (!by_parts) request_.rays(line, begin, end, rays);
         for (int sample = begin; sample < end; ++sample) {
             pixel_.begin();
-            for (std::size_t r = 0; r < rays_per_pixel; ++r) {
-                pixel_.add_ray(rays[static_cast<std::size_t>(sample - begin) * rays_per_pixel + r], request_.ray_weight[r]);
+            if (by_parts) {
+                parts_->trace(sample, pixel_);
+            } else {
+                const auto first = static_cast<std::size_t>(sample - begin) * rays_per_pixel;
+                for (std::size_t r = 0; r < rays_per_pixel; ++r) pixel_.add_ray(rays[first + r], request_.ray_weight[r]);
             }
             pixel_.finish();
             const PixelTruth& truth = pixel_.truth();
             write_truth(truth, index(image, line, sample), image);
             float* out = buffer_.data() + static_cast<std::ptrdiff_t>(sample - begin) * (quantities_ * bands_);
-            if (!(truth.coverage > 0.0)) {
+            if (!(truth.seen > 0.0)) {
                 std::fill(out, out + quantities_ * bands_, kNaN);
                 continue;
             }
             PixelView view;
-            if (output_.needs_view() && request_.view) view = request_.view(line, sample, truth.hit_m / truth.coverage);
+            if (output_.needs_view() && request_.view) view = request_.view(line, sample, truth.hit_m / truth.seen);
             output_.compute(pixel_, view, out, out + bands_);
         }
         write_planes(line, begin, end, image);
@@ -134,6 +147,7 @@ private:
     Pixel pixel_;
     BandOutput output_;
     std::vector<SceneRay> rays_;
+    std::optional<PartTracer> parts_;
     std::vector<float> buffer_;  ///< [pixel of the tile][total, terms...][band]
 };
 
@@ -145,8 +159,14 @@ RadianceImage render_image(const RenderScene& scene, const GroundIrradiance* fla
     check_request(request);
     const PreparedScene prepared(scene, flame_light);
     RadianceImage image = empty_image(scene, request);
+    std::optional<FireDetail> detail;
+    if (request.parts) {
+        detail.emplace(scene, flame_light);
+        if (!std::isfinite(detail->finest_spacing_m(1.0))) detail.reset();  // nothing burns
+    }
 
-    tbb::enumerable_thread_specific<TileRenderer> renderers([&] { return TileRenderer(prepared, request); });
+    tbb::enumerable_thread_specific<TileRenderer> renderers(
+        [&] { return TileRenderer(prepared, request, detail ? &*detail : nullptr); });
     Progress progress(monitor, request.lines);
     tbb::parallel_for(tbb::blocked_range<int>(0, request.lines, 1), [&](const tbb::blocked_range<int>& lines) {
         TileRenderer& renderer = renderers.local();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -77,6 +78,12 @@ struct RenderScene {
     const radiometry::ViewAtmosphere* atmosphere = nullptr;
     Vec3 scene_origin_m;  ///< map coordinates of the scene frame's origin (z = 0)
     Vec3 to_sun;          ///< unit vector, scene frame; z <= 0 = night
+    /// Level ground at ambient temperature wherever a ray finds no scene: beyond the map and where it has no data.
+    struct Surroundings {
+        int material = 0;
+        double height_m = 0.0;  ///< scene frame
+    };
+    std::optional<Surroundings> surroundings;  ///< nullopt = such rays see nothing
 };
 
 inline bool has_plume(const RenderScene& scene) noexcept { return scene.plume != nullptr && !scene.plume->empty(); }
@@ -130,6 +137,17 @@ struct PixelView {
     double relative_azimuth_rad = 0.0;  ///< sun azimuth - line of sight azimuth
 };
 
+/// A share of a pixel's response: of the strata along an axis each is halved `level` times; index counts the halves.
+struct PixelPart {
+    int level_u = 0, level_v = 0;  ///< along the line, across the lines
+    int index_u = 0, index_v = 0;
+};
+/// Its ray, and the steps from one end of the share to the other on level ground, along the line and across it.
+struct PartView {
+    SceneRay ray;
+    Vec3 across_m, along_m;
+};
+
 /// Where the sub-rays of an image come from. Callbacks are called from several threads at once.
 struct ImageRequest {
     int samples = 0, lines = 0;
@@ -140,6 +158,11 @@ struct ImageRequest {
     /// View angles of a pixel whose mean ground hit (scene frame) is given.
     std::function<PixelView(int line, int sample, Vec3 hit_m)> view;
     bool terms = true;  ///< keep every radiance term apart
+    /// Views of finer and finer shares of the pixels of a line, for pixels wider than the fire in them; empty = never. The
+    /// shares of level 0 are those of `rays`, parts_per_axis x parts_per_axis = rays_per_pixel; halves have half the weight.
+    using PartsOfLine = std::function<void(int sample, std::span<const PixelPart>, std::span<PartView> out)>;
+    std::function<PartsOfLine(int line)> parts;
+    int parts_per_axis = 0, part_levels = 0;
 };
 
 /// What one image holds before the detector. Planes are [line][sample], cubes [band][line][sample]; NaN where nothing is hit.
@@ -148,7 +171,7 @@ struct RadianceImage {
     Buffer<float> radiance_W_m2_sr_um;            ///< [band][line][sample], noise-free
     std::array<Buffer<float>, kTermCount> terms;  ///< each as radiance, empty when not asked for (or no plume)
     Buffer<double> hit_x_m, hit_y_m, hit_z_m;     ///< PSF-weighted mean ground point, scene frame
-    Buffer<float> coverage;                       ///< weight of sub-rays that met the scene, 0..1
+    Buffer<float> coverage;  ///< weight of sub-rays that met the scene, 0..1; the rest saw its surroundings, if any
     Buffer<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum with smoke = 1
     Buffer<float> smoke_fraction;                                                      ///< empty in scenes without a plume
     Buffer<float> flame_temperature_K;    ///< emission-weighted, NaN without flame

@@ -120,6 +120,11 @@ void check_scene(const RenderScene& scene) {
     check_length(static_cast<std::size_t>(scene.atmosphere->lambda_count()), lambdas, "the atmosphere");
     require(optics.burnt_material >= 0 && optics.burnt_material < optics.material_count, "scene",
             fmt::format("burnt_material is {}, expected one of {} materials", optics.burnt_material, optics.material_count));
+    if (scene.surroundings) {
+        require(scene.surroundings->material >= 0 && scene.surroundings->material < optics.material_count, "scene",
+                fmt::format("surroundings of material {}, expected one of {} materials", scene.surroundings->material,
+                            optics.material_count));
+    }
     check_length(scene.surface->base_temperature_K.size(), scene.surface->grid.size(), "base_temperature_K");
     check_length(scene.surface->front_fraction.size(), scene.surface->grid.size(), "front_fraction");
     check_length(scene.surface->burned.size(), scene.surface->grid.size(), "burned");

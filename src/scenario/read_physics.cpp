@@ -35,11 +35,13 @@ fire::EmberParameters read_embers(const config::Node& node) {
     return embers;
 }
 
-/// Names of the shipped surface spectra: the columns of the table after the wavelength.
-std::vector<std::string> surface_names() {
-    auto columns = read_csv(data_folder() / "optical" / "surface_reflectance.csv").columns;
-    columns.erase(columns.begin());
-    return columns;
+/// Names of the shipped surface spectra (the columns of the table after the wavelength) and of the user's.
+std::vector<std::string> surface_names(const SurfaceSettings& surface) {
+    auto names = read_csv(data_folder() / "optical" / "surface_reflectance.csv").columns;
+    names.erase(names.begin());
+    for (const auto& [name, file] : surface.spectra)
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    return names;
 }
 
 }  // namespace
@@ -124,14 +126,11 @@ FlameSettings read_flame(const config::Node& node, fire::Physics physics) {
 SurfaceSettings read_surface(const config::Node& node, const fs::path& folder) {
     SurfaceSettings surface;
     if (!node.present()) return surface;
-    auto names = surface_names();
     if (const auto spectra = node.child("spectra"); spectra.present() && !spectra.is_map())
         spectra.report("expected names with files: {my_grass: my_grass.csv}");
     else
-        for (const auto& name : spectra.keys()) {
-            surface.spectra[name] = read_file_name(spectra.child(name), folder);
-            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-        }
+        for (const auto& name : spectra.keys()) surface.spectra[name] = read_file_name(spectra.child(name), folder);
+    const auto names = surface_names(surface);
     surface.unburned = node.choice("unburned", surface.unburned, names);
     surface.burned = node.choice("burned", surface.burned, names);
     surface.ash = node.choice("ash", surface.ash, names);
@@ -155,7 +154,7 @@ AtmosphereSource read_atmosphere(const config::Node& node, const fs::path& folde
     return atmosphere;
 }
 
-RenderSettings read_render(const config::Node& node) {
+RenderSettings read_render(const config::Node& node, const SurfaceSettings& surface) {
     RenderSettings render;
     render.samples_per_axis =
         static_cast<int>(node.integer("samples_per_axis", render.samples_per_axis, Range::between(1, 16)));
@@ -169,6 +168,10 @@ RenderSettings read_render(const config::Node& node) {
     render.light_bounces = static_cast<int>(node.integer("light_bounces", render.light_bounces, Range::between(1, 16)));
     render.light_decay = static_cast<int>(node.integer("light_decay", render.light_decay, Range::between(1, 64)));
     render.sun = node.boolean("sun", render.sun);
+    auto grounds = surface_names(surface);
+    grounds.insert(grounds.end(), {"cover", "none"});
+    render.background = node.choice("background", render.background, grounds);
+    render.noise = node.boolean("noise", render.noise);
     node.finish();
     return render;
 }

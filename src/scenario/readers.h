@@ -40,7 +40,8 @@ PlumeSource read_plume_source(const config::Node& node, const std::filesystem::p
 SurfaceSettings read_surface(const config::Node& node, const std::filesystem::path& folder);
 FlameSettings read_flame(const config::Node& node, fire::Physics physics);
 AtmosphereSource read_atmosphere(const config::Node& node, const std::filesystem::path& folder);
-RenderSettings read_render(const config::Node& node);
+/// \param surface  for the names of the user's spectra
+RenderSettings read_render(const config::Node& node, const SurfaceSettings& surface);
 std::vector<Acquisition> read_acquisitions(const config::Node& node, const std::filesystem::path& folder);
 Products read_products(const config::Node& node);
 

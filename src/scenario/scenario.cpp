@@ -105,7 +105,7 @@ Scenario load(const fs::path& path) {
     s.plume = read_plume(root.child("plume"), s.inputs, s.fire);
     s.surface = read_surface(root.child("surface"), folder);
     s.atmosphere = read_atmosphere(root.child("atmosphere"), folder);
-    s.render = read_render(root.child("render"));
+    s.render = read_render(root.child("render"), s.surface);
     s.acquisitions = read_acquisitions(root.required_child("acquisitions"), folder);
     s.products = read_products(root.child("products"));
     root.finish();

@@ -92,6 +92,9 @@ struct RenderSettings {
     double point_source_cut = 0.01;
     int light_bounces = 3, light_decay = 4;
     bool sun = true;  ///< false = solar terms off whatever the hour
+    /// Surface (spectrum) at ambient temperature beyond the map: "cover" = what most of the map has, "none" = no data.
+    std::string background = "cover";
+    bool noise = true;  ///< false = a detector without noise; it still saturates and counts
 };
 
 /// A uniform layer of smoke: how much by concentration or by optical depth.

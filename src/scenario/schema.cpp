@@ -368,7 +368,9 @@ constexpr const char* kSchema = R"json({
         "point_source_cut": {"type": "number", "minimum": 0, "maximum": 1, "default": 0.01},
         "light_bounces": {"type": "integer", "minimum": 1, "maximum": 16, "default": 3},
         "light_decay": {"type": "integer", "minimum": 1, "maximum": 64, "default": 4},
-        "sun": {"type": "boolean", "default": true}
+        "sun": {"type": "boolean", "default": true},
+        "background": {"type": "string", "default": "cover"},
+        "noise": {"type": "boolean", "default": true}
       }
     },
     "acquisitions": {

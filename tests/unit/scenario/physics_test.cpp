@@ -75,7 +75,7 @@ TEST(Physics, SurfaceAtmosphereAndRenderAreRead) {
         folder.load(shortest("surface: {unburned: conifer, burned: ash_gray, emissivity: 0.9}\n"
                              "atmosphere: {model: tropical, visibility_km: 5, ground_elevation_m: 1200}\n"
                              "render: {samples_per_axis: 5, light_directions: 128, light_reach_m: 250, "
-                             "flame_light: false, sun: false}\n"));
+                             "flame_light: false, sun: false, background: water, noise: false}\n"));
     EXPECT_EQ(s.surface.unburned, "conifer");
     EXPECT_EQ(s.surface.burned, "ash_gray");
     EXPECT_EQ(s.surface.emissivity, 0.9);
@@ -86,6 +86,8 @@ TEST(Physics, SurfaceAtmosphereAndRenderAreRead) {
     EXPECT_EQ(s.render.light_directions, 128);
     EXPECT_EQ(s.render.light_reach_m, 250.0);
     EXPECT_FALSE(s.render.flame_light || s.render.sun);
+    EXPECT_EQ(s.render.background, "water");
+    EXPECT_FALSE(s.render.noise);
     EXPECT_EQ(folder.load(shortest("atmosphere: {model: none}\n")).atmosphere.model, "none");
     EXPECT_EQ(folder.load(shortest("atmosphere: {file: lut.nc}\n")).atmosphere.file, folder.path() / "lut.nc");
 }

@@ -70,6 +70,32 @@ TEST_P(EveryShape, PointsAreSymmetricEquallyWeightedAndSpreadLikeThePsf) {
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(kShapes),
                          [](const auto& test) { return std::string(test.param.name); });
 
+TEST_P(EveryShape, SharesAreTheStrataAndTheirHalvesKeepTheCentroid) {
+    const Psf& psf = GetParam().psf;
+    constexpr int kBase = 3;
+    const PsfShares shares(psf, kBase);
+    const auto points = pixel_samples(psf, psf, kBase);
+    for (int i = 0; i < kBase; ++i)
+        EXPECT_NEAR(shares.share(0, i).centre, points.offset[static_cast<std::size_t>(i)][0], 1e-12);
+    for (int level = 0; level < PsfShares::kLevels; ++level) {
+        double variance = 0.0;
+        const int count = kBase << level;
+        for (int i = 0; i < count; ++i) {
+            const auto whole = shares.share(level, i), left = shares.share(level + 1, 2 * i),
+                       right = shares.share(level + 1, 2 * i + 1);
+            ASSERT_NEAR(0.5 * (left.centre + right.centre), whole.centre, 1e-10);
+            ASSERT_LT(left.centre, right.centre);
+            ASSERT_GT(whole.width, 0.0);
+            variance += whole.centre * whole.centre / count;
+        }
+        // Strata's centroids miss the variance inside a stratum, which falls with every level.
+        EXPECT_LT(variance, GetParam().variance);
+        if (level >= 6) {
+            EXPECT_NEAR(variance / GetParam().variance, 1.0, 2e-3);
+        }
+    }
+}
+
 TEST(PixelSamples, ABoxIsCutIntoEqualParts) {
     const PixelSamples points = pixel_samples({Psf::Shape::None}, {Psf::Shape::Box, 2.0}, 4);
     EXPECT_NEAR(points.offset[0][0], -0.375, 1e-14);
