@@ -49,8 +49,15 @@ struct Psf {
 
 /// Radiance noise of a band.
 struct Noise {
-    enum class Kind { None, NoiseEquivalentTemperature, SignalToNoise, SignalToNoiseAtAlbedo } kind = Kind::None;
-    double value = 0.0;                   ///< K, or ratio
+    enum class Kind {
+        None,
+        NoiseEquivalentTemperature,
+        NoiseEquivalentRadiance,
+        SignalToNoise,
+        SignalToNoiseAtAlbedo
+    } kind = Kind::None;
+    double value = 0.0;                   ///< K, W m-2 sr-1 um-1, or ratio
+    double shot = 0.0;                    ///< of a NEdL: variance per radiance [W m-2 sr-1 um-1]
     double at_temperature_K = 300.0;      ///< of an NEdT
     std::optional<double> at_radiance{};  ///< W m-2 sr-1 um-1 of an SNR; absent: ratio to the signal itself
     std::optional<double> at_albedo{};
@@ -65,6 +72,23 @@ struct Band {
     Noise noise;
     std::optional<double> saturation_radiance_W_m2_sr_um;
     std::optional<int> bits;
+    /// A second, more sensitive range of the same detector (gain, or longer exposure): signals up to its maximum are counted
+    /// over it, with its noise; `noise` and the saturation are those of the wide range.
+    struct SensitiveRange {
+        double maximum_W_m2_sr_um = 0.0;
+        Noise noise;
+    };
+    std::optional<SensitiveRange> sensitive_range;
+    double noise_factor = 1.0;  ///< on `noise`: of a shorter exposure than the one it was stated for
+    /// Signals beyond this many times the saturation run over the counter and come out as what exceeds it, modulo the full
+    /// scale; nullopt = they are clipped however bright.
+    std::optional<double> fold_over;
+};
+
+/// Light that misses its pixel: a share of it spread by a Gaussian over the neighbourhood.
+struct StrayLight {
+    double share = 0.0;         ///< 0..1, 0 = none
+    double fwhm_samples = 0.0;  ///< along both axes
 };
 
 struct Sensor {
@@ -76,6 +100,7 @@ struct Sensor {
     std::array<double, 3> boresight_offset_rad{};  ///< roll, pitch, heading misalignment between body and camera
     std::vector<CameraGroup> groups;
     Psf psf_across, psf_along;
+    StrayLight stray;
     std::vector<Band> bands;  ///< in file order
     NativeForm native_form = NativeForm::None;
     std::vector<double> native_gain;                     ///< AvirisEnvi: counts per uW cm-2 nm-1 sr-1 of each band

@@ -10,7 +10,6 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "radiometry/planck.h"
 #include "sensors/sensor_file.h"
 
 namespace fs = std::filesystem;
@@ -109,37 +108,6 @@ void read_response(const Node& node, const std::optional<std::array<double, 2>>&
     }
 }
 
-Noise read_noise(const Node& node) {
-    Noise noise;
-    if (!node.present()) return noise;
-    static_cast<void>(node.required_child("kind"));
-    const std::string kind = node.choice("kind", "none", {"none", "nedt", "snr", "snr_at_albedo"});
-    if (kind == "nedt") {
-        noise.kind = Noise::Kind::NoiseEquivalentTemperature;
-        noise.value = node.required_child("value_k").as_number(0.0, Range::positive());
-        noise.at_temperature_K = node.number("at_k", noise.at_temperature_K, Range::positive());
-    } else if (kind == "snr" || kind == "snr_at_albedo") {
-        noise.kind = kind == "snr" ? Noise::Kind::SignalToNoise : Noise::Kind::SignalToNoiseAtAlbedo;
-        noise.value = node.required_child("value").as_number(1.0, Range::positive());
-        if (kind == "snr") noise.at_radiance = node.optional_number("at_radiance_w_m2_sr_um", Range::positive());
-        if (kind == "snr_at_albedo") noise.at_albedo = node.required_child("at_albedo").as_number(1.0, Range::positive());
-    }
-    node.ignore("note");
-    node.finish();
-    return noise;
-}
-
-std::optional<double> read_saturation(const Node& node, const Band& band) {
-    const auto radiance = node.optional_number("radiance_w_m2_sr_um", Range::positive());
-    const auto temperature_K = node.optional_number("temperature_k", Range::positive());
-    for (const char* key : {"albedo", "high_gain_w_m2_sr_um", "l1b_limit_temperature_k", "low_gain_w_m2_sr_um",
-                            "minimum_w_m2_sr_band", "nominal_gain_temperature_k", "note", "radiance_w_m2_sr_band"})
-        node.ignore(key);
-    node.finish();
-    if (radiance || !temperature_K || band.response.value.empty()) return radiance;
-    return radiometry::band_mean_radiance(*temperature_K, band.response);
-}
-
 /// Group named by a band; "all", or nothing, means the only one there is.
 std::string read_group_name(const Node& node, const Sensor& sensor) {
     const std::string name = node.text("group", "all");
@@ -162,7 +130,7 @@ std::optional<std::array<double, 2>> read_edges(const Node& node) {
     return std::nullopt;
 }
 
-Band read_band(const Node& node, std::optional<int> bits, const Sensor& sensor, Tables& tables) {
+Band read_band(const Node& node, const Digitisation& digitisation, const Sensor& sensor, Tables& tables) {
     Band band;
     band.id = node.required_child("id").as_text("");
     band.group = read_group_name(node, sensor);
@@ -170,12 +138,8 @@ Band read_band(const Node& node, std::optional<int> bits, const Sensor& sensor, 
     const auto edges_um = read_edges(node);
     if (edges_um) band.fwhm_um = (*edges_um)[1] - (*edges_um)[0];
     read_response(node, edges_um, tables, band);
-    band.noise = read_noise(node.child("noise"));
-    band.saturation_radiance_W_m2_sr_um = read_saturation(node.child("saturation"), band);
-    band.bits = bits;
-    if (const Node own = node.child("bits"); own.present())
-        band.bits = static_cast<int>(own.as_integer(16, Range::between(1, 32)));
-    for (const char* key : {"derived", "detector", "dual_gain", "gain", "minimum_temperature_k", "noise_requirement_k",
+    read_detector(node, digitisation, band);
+    for (const char* key : {"derived", "detector", "gain", "minimum_temperature_k", "noise_requirement_k",
                             "thermal_constants", "time_shared_with"})
         node.ignore(key);
     node.finish();
@@ -183,7 +147,7 @@ Band read_band(const Node& node, std::optional<int> bits, const Sensor& sensor, 
 }
 
 /// Channels of an imaging spectrometer: a table `channel,center_um,fwhm_um` with gaussian responses.
-void read_channel_table(const Node& spectral, std::optional<int> bits, Tables& tables, Sensor& sensor) {
+void read_channel_table(const Node& spectral, Tables& tables, Sensor& sensor) {
     static_cast<void>(spectral.choice("srf", "gaussian", {"gaussian"}));
     const Node file = spectral.required_child("bands_file");
     const std::string group = read_group_name(spectral, sensor);
@@ -207,7 +171,6 @@ void read_channel_table(const Node& spectral, std::optional<int> bits, Tables& t
             band.fwhm_um = fwhm_um[i];
             band.response = gaussian(centre_um[i], fwhm_um[i]);
             band.response_source = fmt::format("gaussian, {}", file.as_text(""));
-            band.bits = bits;
             sensor.bands.push_back(std::move(band));
         }
     } catch (const Error& problem) {
@@ -217,15 +180,16 @@ void read_channel_table(const Node& spectral, std::optional<int> bits, Tables& t
 
 }  // namespace
 
-void read_bands(const Node& root, std::optional<int> bits, Sensor& sensor) {
+void read_bands(const Node& root, const Digitisation& digitisation, Sensor& sensor) {
     Tables tables(sensor.source_path);
     if (const Node spectral = root.child("spectral"); spectral.present()) {
-        read_channel_table(spectral, bits, tables, sensor);
+        read_channel_table(spectral, tables, sensor);
+        read_channel_detectors(root, digitisation, sensor.bands);
         return;
     }
     const Node list = root.required_child("bands");
     for (const Node& node : list.items()) {
-        Band band = read_band(node, bits, sensor, tables);
+        Band band = read_band(node, digitisation, sensor, tables);
         if (sensor.band_index(band.id) >= 0) node.report(fmt::format("band '{}' is given twice", band.id));
         sensor.bands.push_back(std::move(band));
     }

@@ -219,13 +219,17 @@ void read_geometry(const Node& geometry, Sensor& sensor) {
     geometry.finish();
 }
 
-/// Angle between samples of the first group [mrad]: turns an angular PSF width into samples.
-double sample_step_mrad(const Node& geometry) {
+/// Angles between samples and between lines of the first group [mrad]: they turn an angular PSF width into samples.
+struct Steps {
+    double across_mrad = 1.0, along_mrad = 1.0;
+};
+Steps sample_steps(const Node& geometry) {
     const Node groups = geometry.child("groups");
     const auto ids = groups.keys();
     const Node group = ids.empty() ? Node() : groups.child(ids.front());
     const double ifov = group.number("ifov_across_mrad", 1.0, Range::positive());
-    return group.number("step_across_mrad", geometry.number("step_across_mrad", ifov, Range::positive()), Range::positive());
+    return {group.number("step_across_mrad", geometry.number("step_across_mrad", ifov, Range::positive()), Range::positive()),
+            group.number("ifov_along_mrad", ifov, Range::positive())};
 }
 
 Psf::Shape psf_shape(const Node& node) {
@@ -261,15 +265,6 @@ Psf read_psf_axis(const Node& node, double step_mrad) {
     return psf;
 }
 
-std::optional<int> read_digitisation(const Node& digitisation) {
-    const Node bits = digitisation.child("bits");
-    accept(digitisation, {"bits_dnb", "bits_ir", "bits_vis", "bits_thermal", "bits_visible", "exposure_ratio", "exposures",
-                          "native_unit", "product", "since_1995", "to_si"});
-    digitisation.finish();
-    if (!bits.present()) return std::nullopt;
-    return static_cast<int>(bits.as_integer(16, Range::between(1, 32)));
-}
-
 std::vector<std::array<std::string, 2>> read_pairs(const Node& node) {
     std::vector<std::array<std::string, 2>> pairs;
     for (const auto& key : node.keys()) pairs.push_back({key, node.text(key, "")});
@@ -291,15 +286,22 @@ Sensor read_sensor_file(const std::filesystem::path& path) {
                psf = root.child("psf");
     read_platform(platform, sensor);
     read_geometry(geometry, sensor);
-    sensor.psf_across = read_psf_axis(psf.child("along_scan"), sample_step_mrad(geometry));
-    sensor.psf_along = read_psf_axis(psf.child("along_track"), sample_step_mrad(geometry));
+    const Steps steps = sample_steps(geometry);
+    sensor.psf_across = read_psf_axis(psf.child("along_scan"), steps.across_mrad);
+    sensor.psf_along = read_psf_axis(psf.child("along_track"), steps.along_mrad);
+    if (const Node stray = psf.child("stray"); stray.present()) {
+        sensor.stray.share = stray.required_child("share").as_number(0.0, Range::between(0.0, 0.5));
+        sensor.stray.fwhm_samples = stray.required_child("fwhm_samples").as_number(1.0, Range::between(0.5, 1000.0));
+        stray.ignore("note");
+        stray.finish();
+    }
     accept(psf, {"mtf_nyquist", "note", "optics_blur_fwhm_samples"});
     psf.finish();
     read_bands(root, read_digitisation(root.child("digitisation")), sensor);
     read_distribution(root.child("distribution"), sensor);
     sensor.confidence = read_pairs(root.child("confidence"));
     sensor.sources = read_pairs(root.child("sources"));
-    accept(root, {"fire_notes", "noise", "notes", "saturation", "scene", "thesis_maxima_w_cm2_sr_um"});
+    accept(root, {"fire_notes", "notes", "scene", "thesis_maxima_w_cm2_sr_um"});
     root.finish();
     document.throw_if_any();
     return sensor;

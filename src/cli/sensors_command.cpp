@@ -23,6 +23,8 @@ std::string noise_text(const sensors::Band& band) {
             return "-";
         case Kind::NoiseEquivalentTemperature:
             return fmt::format("NEdT {:g} K at {:g} K", band.noise.value, band.noise.at_temperature_K);
+        case Kind::NoiseEquivalentRadiance:
+            return fmt::format("NEdL {:g}", band.noise.value);
         case Kind::SignalToNoise:
             return fmt::format("SNR {:g}", band.noise.value);
         case Kind::SignalToNoiseAtAlbedo:

@@ -191,9 +191,13 @@ Measured measure(const GroupJob& job, const RadianceImage& image, RunReport& rep
     const std::size_t n = out.saturated.size() / job.bands.size();
     for (std::size_t k = 0; k < job.bands.size(); ++k) {
         auto band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
-        if (!job.scenario.render.noise) band.noise = {};
+        if (!job.scenario.render.noise) {
+            band.noise = {};
+            if (band.sensitive_range) band.sensitive_range->noise = {};
+        }
         const auto stream = fmt::format("noise/{}/{}", job.acquisition.id, band.id);
         const RandomKey key{job.scenario.seed, stream_id(stream.c_str()), 0};
+        sensors::add_stray_light(job.sensor.stray, image.samples, std::span(out.radiance_W_m2_sr_um).subspan(k * n, n));
         const auto count = sensors::apply_detector(band, key, std::span(out.radiance_W_m2_sr_um).subspan(k * n, n),
                                                    std::span(out.saturated).subspan(k * n, n));
         report.count(fmt::format("saturated_pixels/{}/{}", job.acquisition.id, band.id), count);

@@ -53,6 +53,9 @@ std::string sensor_json(const sensors::Sensor& sensor) {
                                  {"response_lambda_um", b.response.lambda_um},
                                  {"response_value", b.response.value},
                                  {"saturation_radiance_W_m2_sr_um", optional(b.saturation_radiance_W_m2_sr_um)},
+                                 {"sensitive_range_W_m2_sr_um",
+                                  b.sensitive_range ? Json(b.sensitive_range->maximum_W_m2_sr_um) : Json()},
+                                 {"fold_over_factor", optional(b.fold_over)},
                                  {"bits", optional(b.bits)}});
     for (const auto& [path, code] : sensor.confidence) json["confidence"].push_back({{"of", path}, {"code", code}});
     for (const auto& [key, text] : sensor.sources) json["sources"][key] = text;

@@ -97,6 +97,64 @@ TEST(Detector, NoiseComesBeforeSaturation) {
     EXPECT_NEAR(static_cast<double>(clipped), 5000.0, 250.0);  // half of a symmetric noise; five standard deviations
 }
 
+TEST(Noise, OfRadianceGrowsWithTheRootOfTheSignal) {
+    Band band = mwir();
+    band.noise = {.kind = Noise::Kind::NoiseEquivalentRadiance, .value = 0.3, .shot = 0.04};
+    EXPECT_DOUBLE_EQ(noise_radiance(band, 0.0), 0.3);
+    EXPECT_DOUBLE_EQ(noise_radiance(band, 4.0), 0.5);  // sqrt(0.09 + 0.16)
+}
+
+TEST(Detector, ASensitiveRangeCountsFinerAndIsQuieter) {
+    Band band = mwir();
+    band.saturation_radiance_W_m2_sr_um = 640.0;
+    band.bits = 6;  // steps of 10, and of 1 in the sensitive range
+    band.sensitive_range = Band::SensitiveRange{64.0, {}};
+    EXPECT_EQ(through(band, {10.3f, 63.6f, 94.0f, 700.0f}), (std::vector<float>{10.0f, 64.0f, 90.0f, 640.0f}));
+    band.bits.reset();
+    band.noise = {.kind = Noise::Kind::SignalToNoise, .value = 1.0, .at_radiance = 2.0};
+    band.noise_factor = 3.0;
+    band.sensitive_range->noise = {.kind = Noise::Kind::SignalToNoise, .value = 1.0, .at_radiance = 0.1};
+    const auto spread = [&](float level) {
+        double square = 0.0;
+        for (const float v : through(band, std::vector<float>(20000, level))) square += (v - level) * (v - level) / 20000.0;
+        return std::sqrt(square);
+    };
+    EXPECT_NEAR(spread(30.0f), 0.1, 0.003);
+    EXPECT_NEAR(spread(300.0f), 6.0, 0.18);
+}
+
+TEST(Detector, FoldsOverFarAboveSaturation) {
+    Band band = mwir();
+    band.saturation_radiance_W_m2_sr_um = 5.0;
+    band.fold_over = 8.0;
+    std::vector<std::uint8_t> flags;
+    const auto out = through(band, {4.0f, 6.0f, 39.9f, 40.5f, 47.0f}, &flags);
+    EXPECT_EQ(out, (std::vector<float>{4.0f, 5.0f, 5.0f, 0.5f, 2.0f}));
+    EXPECT_EQ(flags, (std::vector<std::uint8_t>{0, 1, 1, 2, 2}));
+}
+
+TEST(StrayLight, SpreadsItsShareAndKeepsTheSum) {
+    constexpr int kEdge = 61;
+    std::vector<float> plane(kEdge * kEdge, 0.0f);
+    const std::size_t middle = plane.size() / 2;
+    plane[middle] = 1000.0f;
+    add_stray_light({.share = 0.1, .fwhm_samples = 6.0}, kEdge, plane);
+    double sum = 0.0;
+    for (const float v : plane) sum += v;
+    EXPECT_NEAR(sum, 1000.0, 0.05);
+    EXPECT_NEAR(plane[middle], 900.0 + 100.0 * 4.0 * std::log(2.0) / (M_PI * 36.0), 0.05);  // peak of the 2-D Gaussian
+    EXPECT_NEAR(plane[middle + 3] / (plane[middle] - 900.0f), 0.5, 1e-3);                   // half at half the width
+    // An even scene stays even, up to its rim and around missing data.
+    std::vector<float> even(kEdge * kEdge, 7.0f);
+    even[100] = std::numeric_limits<float>::quiet_NaN();
+    add_stray_light({.share = 0.3, .fwhm_samples = 9.0}, kEdge, even);
+    for (std::size_t i = 0; i < even.size(); ++i)
+        if (i != 100) {
+            ASSERT_NEAR(even[i], 7.0, 1e-5);
+        }
+    EXPECT_TRUE(std::isnan(even[100]));
+}
+
 TEST(Detector, WithoutSaturationThereIsNoFullScaleToCount) {
     Band band = mwir();
     band.bits = 4;

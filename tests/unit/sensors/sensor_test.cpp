@@ -80,7 +80,7 @@ TEST_P(ShippedSensor, AgreesWithTheDerivedNumbersOfItsFile) {
             EXPECT_NEAR(band.saturation_radiance_W_m2_sr_um.value() / *saturation, 1.0, 2e-3);
         }
         if (const auto nedl = derived.optional_number("nedl_w_m2_sr_um")) {
-            EXPECT_NEAR(noise_radiance(band, 10.0) / *nedl, 1.0, 2e-3);
+            EXPECT_NEAR(noise_radiance(band, 0.0) / *nedl, 1.0, 2e-3);
         }
     }
 }
@@ -119,6 +119,54 @@ TEST(Sensor, WaspIsReadAsItsFileSays) {
     EXPECT_FALSE(wasp.bands[3].saturation_radiance_W_m2_sr_um.has_value());
     EXPECT_EQ(wasp.confidence.front(), (std::array<std::string, 2>{"*", "D"}));
     EXPECT_EQ(wasp.sources.size(), 2u);
+}
+
+TEST(Sensor, EveryBandHasTheNoiseOfItsFile) {
+    // Bands without noise are those of files that say so: the thesis camera, MASTER's geolocation band.
+    for (const auto& id : sensor_ids()) {
+        if (id == "wasp-thesis") continue;
+        const Sensor sensor = load_sensor(id);
+        int quiet = 0;
+        for (const Band& band : sensor.bands) quiet += noise_radiance(band, 10.0) > 0.0 ? 0 : 1;
+        EXPECT_LE(quiet, 1) << id;
+    }
+    // 0.0015 uW cm-2 nm-1 sr-1 above 1.85 um; saturation at 1.2 times full sun, about 1.2 x 80 W m-2 um-1 / pi at 2.2 um.
+    const Sensor aviris = load_sensor("aviris-classic");
+    const Band& swir = aviris.bands[static_cast<std::size_t>(aviris.band_index("200"))];
+    EXPECT_NEAR(noise_radiance(swir, 10.0), 0.015, 1e-12);
+    EXPECT_NEAR(swir.saturation_radiance_W_m2_sr_um.value(), 1.2 * 78.0 / M_PI, 3.0);
+    EXPECT_EQ(swir.bits, 12);
+}
+
+TEST(Sensor, GainsAndCountsAreThoseOfTheFiles) {
+    const Sensor viirs = load_sensor("viirs-snpp");
+    const auto band = [&](const char* id) { return viirs.bands[static_cast<std::size_t>(viirs.band_index(id))]; };
+    // M13: high gain to 343 K with 0.107 K at 300 K, low gain to 634 K with 0.423 K at 380 K.
+    const Band m13 = band("M13");
+    ASSERT_TRUE(m13.sensitive_range.has_value());
+    EXPECT_NEAR(radiometry::band_brightness_temperature(m13.sensitive_range->maximum_W_m2_sr_um, m13.response), 343.0, 0.01);
+    EXPECT_EQ(m13.sensitive_range->noise.value, 0.107);
+    EXPECT_EQ(m13.noise.at_temperature_K, 380.0);
+    EXPECT_EQ(band("M01").sensitive_range->maximum_W_m2_sr_um, 155.0);
+    EXPECT_EQ(band("I04").fold_over, 8.0);
+    EXPECT_FALSE(band("I05").fold_over.has_value());
+    EXPECT_NEAR(band("DNB").saturation_radiance_W_m2_sr_um.value(), 500.0, 1e-9);  // 200 W m-2 sr-1 in 0.4 um
+    EXPECT_FALSE(band("DNB").bits.has_value());
+    // Two exposures 1 : 20, the longer one to 350 K.
+    const Sensor hsrs = load_sensor("bird-hsrs");
+    const Band& mir = hsrs.bands[static_cast<std::size_t>(hsrs.band_index("MIR"))];
+    ASSERT_TRUE(mir.sensitive_range.has_value());
+    EXPECT_NEAR(radiometry::band_brightness_temperature(mir.sensitive_range->maximum_W_m2_sr_um, mir.response), 350.0, 0.01);
+    EXPECT_NEAR(noise_radiance(mir, 100.0) / noise_radiance(mir, 1.0), 20.0, 1e-9);
+    const Sensor ols = load_sensor("dmsp-ols");
+    EXPECT_EQ(ols.bands.front().bits, 6);
+    EXPECT_EQ(ols.bands[static_cast<std::size_t>(ols.band_index("TIR"))].bits, 8);
+}
+
+TEST(Sensor, AngularPointSpreadIsDividedByTheStepOfItsAxis) {
+    const Sensor aviris = load_sensor("aviris-classic");  // 1 mrad; samples 0.87 mrad apart, lines 1 mrad
+    EXPECT_NEAR(aviris.psf_across.width_samples, 1.0 / 0.87, 0.005);
+    EXPECT_NEAR(aviris.psf_along.width_samples, 1.0, 1e-12);
 }
 
 TEST(Sensor, TheThesisCameraHasNoNoiseNoCountsAndNoBlur) {
