@@ -1,0 +1,181 @@
+// Whole runs over scenes that are known: every sensor over an even plane, one fire at several resolutions.
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "radiometry/planck.h"
+#include "sensors/detector.h"
+#include "system/support.h"
+
+namespace pyroscene::test {
+namespace {
+
+constexpr double kPlane_K = 600.0;
+
+MapGrid square_map(double edge_m, double cell_m) {
+    MapGrid grid;
+    grid.cols = grid.rows = static_cast<int>(std::lround(edge_m / cell_m));
+    grid.cell_m = cell_m;
+    grid.west_m = 700000.0;
+    grid.north_m = 5184000.0;
+    grid.crs_wkt = "EPSG:32611";
+    return grid;
+}
+
+void run_in(const ScratchFolder& folder, const std::string& scenario) {
+    std::ofstream(folder / "scenario.yaml") << scenario;
+    const auto run = pyroscene_cli("run " + (folder / "scenario.yaml").string() + " -q -o " + (folder / "out").string());
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+}
+
+/// Emissive bands of a sensor (beyond 3 um) and the acquisition that takes them over the middle of the map; empty if none.
+std::string acquisition_of(const sensors::Sensor& sensor) {
+    std::string bands;
+    for (const auto& band : sensor.bands)
+        if (band.centre_um > 3.0) bands += fmt::format("{}\"{}\"", bands.empty() ? "" : ", ", band.id);
+    if (bands.empty()) return {};
+    const bool stands = sensor.orbit && sensor.orbit->geostationary_longitude_deg;
+    const std::string platform = stands            ? "{pass: geostationary}"
+                                 : sensor.airborne ? "{over: centre, altitude_agl_m: 3000}"
+                                                   : "{over: centre, pass: descending}";
+    return fmt::format("  - {{id: {0}, sensor: {0}, time_s: 0, platform: {1}, bands: [{2}]{3}}}\n", sensor.id, platform, bands,
+                       stands ? "" : ", lines: 2");
+}
+
+/// What a band reports of the plane: radiances that are 600 K but for noise and counts, or the saturation.
+void expect_plane(const sensors::Band& band, const std::vector<double>& radiance, const std::string& where) {
+    const double truth = radiometry::band_mean_radiance(kPlane_K, band.response);
+    const double full_scale = band.saturation_radiance_W_m2_sr_um.value_or(1e30);
+    const double sigma = sensors::noise_radiance(band, truth), step = band.bits ? full_scale * std::exp2(-*band.bits) : 0.0;
+    double sum = 0.0, n = 0.0;
+    for (const double L : radiance) {
+        if (std::isnan(L)) continue;
+        sum += L;
+        n += 1.0;
+    }
+    ASSERT_GT(n, 3.0) << where;
+    if (truth > full_scale) {
+        // Clipped; VIIRS I4 folds over here (267 against 8 x 4.65 W m-2 sr-1 um-1) and reads less.
+        EXPECT_LE(sum / n, full_scale * (1.0 + 1e-6)) << where;
+        return;
+    }
+    const double mean_K = radiometry::band_brightness_temperature(sum / n, band.response);
+    const double slope = (radiometry::band_mean_radiance(kPlane_K + 0.5, band.response) -
+                          radiometry::band_mean_radiance(kPlane_K - 0.5, band.response));
+    EXPECT_NEAR(mean_K, kPlane_K, 0.05 + (5.0 * sigma / std::sqrt(n) + 0.5 * std::min(step, 1e6)) / slope) << where;
+}
+
+TEST(EverySensor, ReadsAPlaneOf600K) {
+    const ScratchFolder folder;
+    const auto grid = square_map(4000.0, 200.0);
+    write_band(folder / "dem.tif", grid, "m", [](double, double) { return 1000.0; });
+    write_band(folder / "flux.tif", grid, "W m-2", [](double, double) { return 0.0; }, {{"time_s", "0"}});
+    std::string acquisitions;
+    int seen = 0;
+    for (const auto& id : sensors::sensor_ids()) {
+        if (id == "generic-framing") continue;  // a million pixels of what WASP shows
+        const auto text = acquisition_of(sensors::load_sensor(id));
+        seen += text.empty() ? 0 : 1;
+        acquisitions += text;
+    }
+    EXPECT_GE(seen, 30);
+    run_in(folder, fmt::format(R"(pyroscene: 1
+name: plane
+inputs: {{terrain: {{file: dem.tif}}, heat_flux: {{file: flux.tif}}}}
+start: 2021-08-12T20:00:00Z
+fire: {{ambient_temperature_K: {}}}
+surface: {{emissivity: 1}}
+atmosphere: {{model: none}}
+products: [radiance]
+acquisitions:
+{})",
+                               kPlane_K, acquisitions));
+    for (const auto& id : sensors::sensor_ids()) {
+        const auto sensor = sensors::load_sensor(id);
+        if (id == "generic-framing" || acquisition_of(sensor).empty()) continue;
+        int found = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "out" / id)) {
+            if (!entry.path().filename().string().starts_with("radiance")) continue;
+            const auto image = gis::read_image(entry.path());
+            for (std::size_t b = 0; b < image.bands.size(); ++b) {
+                const auto& name = image.bands[b].metadata.at("band_id");
+                const int index = sensor.band_index(name);
+                ASSERT_GE(index, 0) << id << " " << name;
+                expect_plane(sensor.bands[static_cast<std::size_t>(index)], plane(image, b), id + " " + name);
+                ++found;
+            }
+        }
+        EXPECT_EQ(found, std::count_if(sensor.bands.begin(), sensor.bands.end(),
+                                       [](const auto& band) { return band.centre_um > 3.0; }))
+            << id;
+    }
+}
+
+/// A camera from 20 km with pixels of this size on the ground.
+std::string camera_of(double pixel_m, int edge_px) {
+    return fmt::format(R"(schema: pyroscene-sensor/1
+id: camera
+name: camera
+platform: {{type: airborne, altitude_agl_m: 20000}}
+geometry:
+  scan_type: framing
+  groups:
+    main: {{nx: {0}, ny: {0}, focal_length_mm: 100.0, pixel_pitch_um: {1}}}
+psf:
+  along_scan: {{shape: gaussian, fwhm_samples: 1.1}}
+  along_track: {{shape: gaussian, fwhm_samples: 1.1}}
+bands:
+- {{id: MWIR, group: main, center_um: 3.95, edges_um: [3.9, 4.0], srf: nominal, srf_shape: boxcar,
+   noise: {{kind: nedt, value_k: 0.1, at_k: 300}}}}
+)",
+                       edge_px, pixel_m * 0.1 / 20000.0 * 1e6);
+}
+
+TEST(OneFire, HasTheSamePowerAtEveryResolution) {
+    const ScratchFolder folder;
+    const auto grid = square_map(2400.0, 20.0);
+    write_band(folder / "dem.tif", grid, "m", [](double x, double y) {
+        return 900.0 + 40.0 * std::sin((x - 700000.0) / 300.0) + 0.03 * (y - 5181600.0);
+    });
+    // A bowed front three cells wide.
+    write_band(
+        folder / "flux.tif", grid, "W m-2",
+        [](double x, double y) {
+            const double radius = std::hypot(x - 701100.0, y - 5182700.0);
+            return radius > 330.0 && radius < 390.0 && x > 701000.0 ? 60000.0 + 100.0 * (y - 5182700.0) : 0.0;
+        },
+        {{"time_s", "0"}});
+    std::string acquisitions;
+    const std::vector<std::pair<double, int>> cameras{{6.0, 300}, {30.0, 72}, {150.0, 24}, {800.0, 10}};
+    for (const auto& [pixel_m, edge_px] : cameras) {
+        std::ofstream(folder / fmt::format("camera{:g}.yaml", pixel_m)) << camera_of(pixel_m, edge_px);
+        acquisitions += fmt::format(
+            "  - {{id: at_{0:g}, sensor: camera{0:g}.yaml, time_s: 0, platform: {{over: centre, altitude_agl_m: 20000}}}}\n",
+            pixel_m);
+    }
+    run_in(folder, R"(pyroscene: 1
+name: one_fire
+inputs: {terrain: {file: dem.tif}, heat_flux: {file: flux.tif}}
+start: 2021-08-12T06:00:00Z
+atmosphere: {model: none}
+render: {noise: false}
+products: [radiance]
+acquisitions:
+)" + acquisitions);
+    std::vector<double> power;
+    for (const auto& [pixel_m, edge_px] : cameras) {
+        const auto image = gis::read_image(folder / fmt::format("out/at_{:g}/radiance.tif", pixel_m));
+        const auto radiance = plane(image, 0);
+        const double background = radiance.front();  // ambient, of the scene and around it
+        double sum = 0.0;
+        for (const double L : radiance) sum += L - background;
+        power.push_back(sum * pixel_m * pixel_m);
+    }
+    EXPECT_GT(power.front(), 1e5);
+    for (const double p : power) EXPECT_NEAR(p / power.front(), 1.0, 0.01);
+}
+
+}  // namespace
+}  // namespace pyroscene::test
