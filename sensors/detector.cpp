@@ -51,7 +51,8 @@ std::vector<double> gaussian_weights(double fwhm) {
 }
 
 /// Convolves `count` values that stand `stride` apart; sums of weights that fall on nothing are left out.
-void blur(const std::vector<double>& weight, std::size_t count, std::size_t stride, double* values, std::vector<double>& row) {
+void blur(const std::vector<double>& weight, std::size_t count, std::size_t stride, double* values,
+          std::vector<double>& row) {
     row.resize(count);
     const auto reach = static_cast<std::ptrdiff_t>(weight.size()) - 1, last = static_cast<std::ptrdiff_t>(count) - 1;
     for (std::ptrdiff_t i = 0; i <= last; ++i) {
@@ -117,7 +118,8 @@ std::int64_t apply_detector(const Band& band, const RandomKey& key, std::span<fl
     const CountingRange wide = counting_range(band.noise, band.noise_factor, band.saturation_radiance_W_m2_sr_um, band);
     CountingRange sensitive;
     sensitive.full_scale = -std::numeric_limits<double>::infinity();
-    if (const auto& range = band.sensitive_range) sensitive = counting_range(range->noise, 1.0, range->maximum_W_m2_sr_um, band);
+    if (const auto& range = band.sensitive_range)
+        sensitive = counting_range(range->noise, 1.0, range->maximum_W_m2_sr_um, band);
     const double folds_from = wide.full_scale * band.fold_over.value_or(std::numeric_limits<double>::infinity());
     std::int64_t clipped = 0;
     for (std::size_t i = 0; i < radiance_W_m2_sr_um.size(); ++i) {
@@ -135,8 +137,7 @@ std::int64_t apply_detector(const Band& band, const RandomKey& key, std::span<fl
             saturated[i] = kClipped;
         }
         clipped += saturated[i] != kUnsaturated ? 1 : 0;
-        radiance_W_m2_sr_um[i] =
-            static_cast<float>((signal <= sensitive.full_scale ? sensitive : wide).counted(signal));
+        radiance_W_m2_sr_um[i] = static_cast<float>((signal <= sensitive.full_scale ? sensitive : wide).counted(signal));
     }
     return clipped;
 }

@@ -13,7 +13,7 @@ namespace {
 using config::Node;
 using config::Range;
 
-constexpr double kThermal_um = 3.0;  // longer bands count with the bits of thermal detectors
+constexpr double kThermal_um = 3.0;         // longer bands count with the bits of thermal detectors
 constexpr double kMicrowatt_cm2_nm = 10.0;  // W m-2 um-1
 
 Noise read_noise(const Node& node) {
@@ -73,7 +73,8 @@ void read_saturation(const Node& node, double exposure_ratio, Band& band) {
         band.sensitive_range = {radiometry::band_mean_radiance(*nominal_K, band.response), band.noise};
         band.noise_factor = exposure_ratio;
     }
-    for (const char* key : {"l1b_limit_temperature_k", "low_gain_w_m2_sr_um", "minimum_w_m2_sr_band", "note"}) node.ignore(key);
+    for (const char* key : {"l1b_limit_temperature_k", "low_gain_w_m2_sr_um", "minimum_w_m2_sr_band", "note"})
+        node.ignore(key);
     node.finish();
 }
 
@@ -110,8 +111,8 @@ void read_dual_gain(const Node& node, Band& band) {
     const auto& sensitive = band.sensitive_range;
     if (sensitive && band.saturation_radiance_W_m2_sr_um &&
         sensitive->maximum_W_m2_sr_um > *band.saturation_radiance_W_m2_sr_um)
-        high.report(fmt::format("ends at {:.4g} W m-2 sr-1 um-1, above the saturation of {:.4g}", sensitive->maximum_W_m2_sr_um,
-                                *band.saturation_radiance_W_m2_sr_um));
+        high.report(fmt::format("ends at {:.4g} W m-2 sr-1 um-1, above the saturation of {:.4g}",
+                                sensitive->maximum_W_m2_sr_um, *band.saturation_radiance_W_m2_sr_um));
     node.finish();
 }
 

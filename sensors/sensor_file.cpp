@@ -228,8 +228,9 @@ Steps sample_steps(const Node& geometry) {
     const auto ids = groups.keys();
     const Node group = ids.empty() ? Node() : groups.child(ids.front());
     const double ifov = group.number("ifov_across_mrad", 1.0, Range::positive());
-    return {group.number("step_across_mrad", geometry.number("step_across_mrad", ifov, Range::positive()), Range::positive()),
-            group.number("ifov_along_mrad", ifov, Range::positive())};
+    return {
+        group.number("step_across_mrad", geometry.number("step_across_mrad", ifov, Range::positive()), Range::positive()),
+        group.number("ifov_along_mrad", ifov, Range::positive())};
 }
 
 Psf::Shape psf_shape(const Node& node) {

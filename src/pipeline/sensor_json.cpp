@@ -45,18 +45,18 @@ std::string sensor_json(const sensors::Sensor& sensor) {
                                   {"focal_length_m", g.focal_length_m},
                                   {"pixel_pitch_m", g.pixel_pitch_m}});
     for (const auto& b : sensor.bands)
-        json["bands"].push_back({{"id", b.id},
-                                 {"group", b.group},
-                                 {"centre_um", b.centre_um},
-                                 {"fwhm_um", b.fwhm_um},
-                                 {"response", b.measured_response ? "measured" : "nominal"},
-                                 {"response_lambda_um", b.response.lambda_um},
-                                 {"response_value", b.response.value},
-                                 {"saturation_radiance_W_m2_sr_um", optional(b.saturation_radiance_W_m2_sr_um)},
-                                 {"sensitive_range_W_m2_sr_um",
-                                  b.sensitive_range ? Json(b.sensitive_range->maximum_W_m2_sr_um) : Json()},
-                                 {"fold_over_factor", optional(b.fold_over)},
-                                 {"bits", optional(b.bits)}});
+        json["bands"].push_back(
+            {{"id", b.id},
+             {"group", b.group},
+             {"centre_um", b.centre_um},
+             {"fwhm_um", b.fwhm_um},
+             {"response", b.measured_response ? "measured" : "nominal"},
+             {"response_lambda_um", b.response.lambda_um},
+             {"response_value", b.response.value},
+             {"saturation_radiance_W_m2_sr_um", optional(b.saturation_radiance_W_m2_sr_um)},
+             {"sensitive_range_W_m2_sr_um", b.sensitive_range ? Json(b.sensitive_range->maximum_W_m2_sr_um) : Json()},
+             {"fold_over_factor", optional(b.fold_over)},
+             {"bits", optional(b.bits)}});
     for (const auto& [path, code] : sensor.confidence) json["confidence"].push_back({{"of", path}, {"code", code}});
     for (const auto& [key, text] : sensor.sources) json["sources"][key] = text;
     return json.dump(2);

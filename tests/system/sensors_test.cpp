@@ -40,8 +40,8 @@ std::string acquisition_of(const sensors::Sensor& sensor) {
     const std::string platform = stands            ? "{pass: geostationary}"
                                  : sensor.airborne ? "{over: centre, altitude_agl_m: 3000}"
                                                    : "{over: centre, pass: descending}";
-    return fmt::format("  - {{id: {0}, sensor: {0}, time_s: 0, platform: {1}, bands: [{2}]{3}}}\n", sensor.id, platform, bands,
-                       stands ? "" : ", lines: 2");
+    return fmt::format("  - {{id: {0}, sensor: {0}, time_s: 0, platform: {1}, bands: [{2}]{3}}}\n", sensor.id, platform,
+                       bands, stands ? "" : ", lines: 2");
 }
 
 /// What a band reports of the plane: radiances that are 600 K but for noise and counts, or the saturation.
@@ -136,17 +136,15 @@ bands:
 TEST(OneFire, HasTheSamePowerAtEveryResolution) {
     const ScratchFolder folder;
     const auto grid = square_map(2400.0, 20.0);
-    write_band(folder / "dem.tif", grid, "m", [](double x, double y) {
-        return 900.0 + 40.0 * std::sin((x - 700000.0) / 300.0) + 0.03 * (y - 5181600.0);
-    });
+    write_band(folder / "dem.tif", grid, "m",
+               [](double x, double y) { return 900.0 + 40.0 * std::sin((x - 700000.0) / 300.0) + 0.03 * (y - 5181600.0); });
     // A bowed front three cells wide.
-    write_band(
-        folder / "flux.tif", grid, "W m-2",
-        [](double x, double y) {
-            const double radius = std::hypot(x - 701100.0, y - 5182700.0);
-            return radius > 330.0 && radius < 390.0 && x > 701000.0 ? 60000.0 + 100.0 * (y - 5182700.0) : 0.0;
-        },
-        {{"time_s", "0"}});
+    write_band(folder / "flux.tif", grid, "W m-2",
+               [](double x, double y) {
+                   const double radius = std::hypot(x - 701100.0, y - 5182700.0);
+                   return radius > 330.0 && radius < 390.0 && x > 701000.0 ? 60000.0 + 100.0 * (y - 5182700.0) : 0.0;
+               },
+               {{"time_s", "0"}});
     std::string acquisitions;
     const std::vector<std::pair<double, int>> cameras{{6.0, 300}, {30.0, 72}, {150.0, 24}, {800.0, 10}};
     for (const auto& [pixel_m, edge_px] : cameras) {
