@@ -70,7 +70,7 @@ awk -F, -v table="$out/table.md" '
 # Figures 4.16 and 4.17 have a page and a command of their own.
 if ((!reduced)); then
     PYROSCENE=$program bash scripts/thesis_figures.sh "$out/thesis_figures" >"$out/thesis_figures.txt" 2>>"$out/warnings.txt"
-    for picture in "$out"/thesis_figures/fig_*.png; do
+    for picture in "$out"/thesis_figures/fig_4_1[67]*.png; do
         name=$(basename -- "$picture")
         cp -- "$picture" "$out/images/${name:0:9}.png"
     done
