@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "base/constants.h"
 
@@ -36,7 +37,6 @@ FlameBody body_of(const FlameField& flame, const FlameField::Brick& brick, int f
     if (!(weights > 0.0)) return {};
     body.T_K /= weights;
     body.middle_m = body.middle_m / weights;
-    body.area_m2 = std::max(body.area_m2, std::cbrt(36.0 * kPi * body.filled_m3 * body.filled_m3));
     return body;
 }
 
@@ -44,16 +44,30 @@ FlameBody body_of(const FlameField& flame, const FlameField::Brick& brick, int f
 
 std::vector<FlameBody> flame_bodies(const FlameField& flame) {
     std::vector<FlameBody> bodies;
+    std::map<std::array<int, 3>, FlameBody> faces;  // by place of the brick; the order of the bricks
     for (int bj = 0; bj < flame.brick_rows; ++bj) {
         for (int bi = 0; bi < flame.brick_cols; ++bi) {
             const auto& column = flame.columns[static_cast<std::size_t>(bj) * static_cast<std::size_t>(flame.brick_cols) +
                                                static_cast<std::size_t>(bi)];
             for (int b = 0; b < column.brick_count; ++b) {
+                const int bk = column.z_begin + b;
                 const auto body = body_of(flame, flame.bricks[static_cast<std::size_t>(column.first_brick + b)], bi * kEdge,
-                                          bj * kEdge, (column.z_begin + b) * kEdge);
-                if (body.filled_m3 > 0.0) bodies.push_back(body);
+                                          bj * kEdge, bk * kEdge);
+                if (body.filled_m3 > 0.0) faces[{bj, bi, bk}] = body;
             }
         }
+    }
+    for (const auto& [at, body] : faces) {
+        double volume_m3 = 0.0, area_m2 = 0.0;
+        for (int n = 0; n < 27; ++n) {
+            const auto found = faces.find({at[0] + n / 9 - 1, at[1] + n / 3 % 3 - 1, at[2] + n % 3 - 1});
+            if (found == faces.end()) continue;
+            volume_m3 += found->second.filled_m3;
+            area_m2 += found->second.area_m2;
+        }
+        area_m2 = std::max(area_m2, std::cbrt(36.0 * kPi * volume_m3 * volume_m3));
+        bodies.push_back(body);
+        bodies.back().area_m2 = body.filled_m3 * area_m2 / volume_m3;
     }
     return bodies;
 }

@@ -11,8 +11,10 @@ namespace pyroscene::fire {
 struct FlameBody {
     Vec3 middle_m;           ///< weighted with fill T^4
     double filled_m3 = 0.0;  ///< sum of fill times voxel volume
-    double area_m2 = 0.0;    ///< faces towards voxels without flame; at least that of the sphere that holds the gas
-    double T_K = 0.0;        ///< weighted with fill T^4
+    /// Its share by volume of the faces towards air of the brick and the bricks around it, so that flame cut into bricks keeps
+    /// its chord and its whole surface; at least that of the sphere that holds the same gas.
+    double area_m2 = 0.0;
+    double T_K = 0.0;  ///< weighted with fill T^4
     [[nodiscard]] double chord_m() const noexcept { return 4.0 * filled_m3 / area_m2; }
 };
 

@@ -127,7 +127,7 @@ struct GroundIrradiance {
 
 /// Hemisphere quadrature at each terrain cell near flames, through the flame field, occluded by terrain, and reflections
 /// between slopes.
-/// A plume takes no part in it. Deterministic for any thread count. Method and accuracy: docs/physics-render.md.
+/// A plume dims the sky and glows in its place. Deterministic for any thread count. Method and accuracy: docs/physics-render.md.
 GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSettings& settings,
                                    const Monitor& monitor = {});
 

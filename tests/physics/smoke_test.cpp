@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "base/constants.h"
+#include "base/random.h"
 #include "physics/test_scene.h"
 #include "radiometry/planck.h"
 #include "radiometry/smoke.h"
@@ -155,6 +157,62 @@ TEST(Smoke, DimsTheSunAndTheSkyOnTheGround) {
                 1e-5);
 }
 
+struct Orders {
+    double first = 0.0, all = 0.0;
+};
+
+/// Nadir radiance of a slab in sunlight per irradiance, by Monte Carlo with a contribution from every collision (black ground);
+/// the first collision is forced into the slab.
+Orders orders_of_scattering(double depth, double albedo, double g, double mu0) {
+    constexpr std::uint64_t kPhotons = 100000;
+    const RandomKey key{7, 0, 0};
+    const double hit = -std::expm1(-depth / mu0);
+    Orders sum;
+    for (std::uint64_t n = 0; n < kPhotons; ++n) {
+        Vec3 along{std::sqrt(1.0 - mu0 * mu0), 0.0, -mu0};
+        double t = -mu0 * std::log(1.0 - hit * uniform01(key, n, 3)), weight = hit;  // optical depth below the top
+        for (std::uint32_t event = 0; event < 400 && weight > 1e-4; ++event) {
+            const auto random = [&](std::uint32_t i) { return uniform01(key, n, 4 * event + i); };
+            if (event > 0) t += along.z * std::log(1.0 - random(0));
+            if (t < 0.0 || t > depth) break;
+            weight *= albedo;
+            const double seen = weight * radiometry::henyey_greenstein_per_sr(along.z, g) * std::exp(-t);
+            sum.all += seen;
+            if (event == 0) sum.first += seen;
+            // A new direction after Henyey and Greenstein.
+            const double s = (1.0 - g * g) / (1.0 - g + 2.0 * g * random(1)), cosine = (1.0 + g * g - s * s) / (2.0 * g);
+            const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), phi = 2.0 * kPi * random(2);
+            const Vec3 side =
+                normalized(std::abs(along.z) < 0.9 ? Vec3{-along.y, along.x, 0.0} : Vec3{0.0, -along.z, along.y});
+            const Vec3 other{along.y * side.z - along.z * side.y, along.z * side.x - along.x * side.z,
+                             along.x * side.y - along.y * side.x};
+            along = cosine * along + sine * std::cos(phi) * side + sine * std::sin(phi) * other;
+        }
+    }
+    const double per_photon = mu0 / static_cast<double>(kPhotons);
+    return {per_photon * sum.first, per_photon * sum.all};
+}
+
+// What single scattering leaves out (docs/physics-render.md has the table): little when thin, most of the light when thick.
+TEST(Smoke, SingleScatteringIsTheThinLimitOfAllOrders) {
+    const double mu0 = std::cos(40.0 * kDegree_rad), albedo = 0.9, g = 0.6;
+    double before = 1.0;
+    for (const double depth : {0.002, 0.1, 0.3, 1.0, 3.0}) {
+        TestScene scene = layer({depth / 200.0, albedo, g}, 2);
+        scene.to_sun = direction(40.0 * kDegree_rad, 0.7);
+        scene.atmosphere.direct_normal_irradiance_W_m2_um.assign(kLambda_um.size(), 1000.0F);
+        const auto image = render::render_image(scene.scene(), nullptr, rays_request({ray_from(0.0, 0.0)}));
+        const double rendered = term(image, Term::SmokeScattering, 0) / 1000.0;
+        const Orders orders = orders_of_scattering(depth, albedo, g, mu0);
+        EXPECT_NEAR(rendered / orders.first, 1.0, 0.01) << depth;
+        const double share = rendered / orders.all;
+        std::printf("optical depth %.3f: single scattering is %.0f %% of all orders\n", depth, 100.0 * share);
+        EXPECT_GT(share, depth < 0.01 ? 0.98 : 0.0);
+        EXPECT_LT(share, before + 0.01);
+        before = share;
+    }
+}
+
 TEST(Smoke, TermsSumToTheTotal) {
     TestScene scene = layer({0.01, 0.9, 0.6}, 5, 320.0, 310.0, 0.2);
     scene.to_sun = direction(0.6, 4.0);
@@ -200,6 +258,41 @@ TEST(Smoke, ScattersTheLightOfADistantFlame) {
         const double expected =
             extinction_per_m * inside_m * 0.9 * intensity / (r_m * r_m) * radiometry::henyey_greenstein_per_sr(cosine, g);
         EXPECT_NEAR(term(image, Term::SmokeScattering, b) / expected, 1.0, 0.03) << kLambda_um[b];
+    }
+}
+
+/// Share of the sphere that the box [72, 88] x [72, 88] x [0, 8] fills, seen from a point over its middle (two-sided faces of a
+/// rectangle seen from its axis: solid angle 4 asin(a b / sqrt((a^2 + d^2)(b^2 + d^2))) of the top face hides the rest).
+double box_share_from_above(double height_above_top_m) {
+    const double half = 8.0, d2 = height_above_top_m * height_above_top_m;
+    return 4.0 * std::asin(half * half / (half * half + d2)) / (4.0 * kPi);
+}
+
+// Opaque flames near the smoke: point sources against the solid angle that the flame really fills (isotropic scattering).
+TEST(Smoke, PointSourcesStandForNearFlames) {
+    for (const double above_m : {8.0, 16.0, 32.0, 64.0}) {
+        TestScene scene({.cols = 16, .rows = 16, .ground_K = 1.0, .lambda_um = kLambda_um, .absorption_per_m = 50.0});
+        scene.optics.grey = false;
+        scene.set_flame({.corner_m = {72.0, 72.0, 0.0}, .nx = 16, .ny = 16, .dx_m = 1.0, .dy_m = 1.0, .dz_m = 1.0},
+                        box_of_voxels(16, 16, 8, 1500.0));
+        scene.plume = fire::make_flame_field(
+            {.corner_m = {79.0, 79.0, 7.0 + above_m}, .nx = 1, .ny = 1, .dx_m = 2.0, .dy_m = 2.0, .dz_m = 2.0},
+            box_of_voxels(1, 1, 1, 1.0));
+        const auto n = kLambda_um.size();
+        scene.optics.smoke_extinction_per_m.assign(n, 1e-5F);
+        scene.optics.smoke_albedo.assign(n, 0.9F);
+        scene.optics.smoke_asymmetry.assign(n, 0.0F);
+        // Through the puff and past the flame, at 60 degrees.
+        const Vec3 puff{80.0, 80.0, 8.0 + above_m}, d = normalized(Vec3{std::sqrt(3.0), 0.0, -1.0});
+        const render::SceneRay ray{puff - 50.0 * d, puff + ((puff.z + 1.0) / 0.5) * d};
+        const auto image = render::render_image(scene.scene(), nullptr, rays_request({ray}));
+        ASSERT_GT(image.coverage[0], 0.0F);
+        const double inside_m = 2.0 / d.x;
+        const double expected =
+            1e-5 * inside_m * 0.9 * radiometry::planck_radiance(2.2, 1500.0) * box_share_from_above(above_m);
+        const double ratio = term(image, Term::SmokeScattering, 2) / expected;
+        std::printf("opaque flame of 16 x 16 x 8 m, smoke %.0f m above it: %.2f of its light\n", above_m, ratio);
+        EXPECT_NEAR(ratio, 1.0, above_m > 20.0 ? 0.2 : 0.35);  // a point in the middle of a body is too far below its top
     }
 }
 
