@@ -52,7 +52,7 @@ public:
         const double y = step_K_ > 0.0 ? std::clamp((T_K - low_K_) / step_K_, 0.0, kTemperatures - 1.0) : 0.0;
         const int i = std::min(static_cast<int>(x), kLengths - 2), t = std::min(static_cast<int>(y), kTemperatures - 2);
         const auto row = [&](int r) {
-            const double* v = values_.data() + r * kLengths + i;
+            const double* v = values_.data() + static_cast<std::ptrdiff_t>(r) * kLengths + i;
             return v[0] + (x - i) * (v[1] - v[0]);
         };
         // Shorter than the first node, gas is thin: in proportion to the length.
