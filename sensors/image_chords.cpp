@@ -18,6 +18,8 @@ constexpr int kFirstStride = 64;
 constexpr double kMaximumNodes = 1048576.0;  // 134 MB
 /// Largest interpolation error allowed on the ground when the lattice is made; half of what the header promises.
 constexpr double kTolerance_m = 5e-4, kTolerance_px = 5e-6;
+/// A camera at most so far above the upper shell may look past the ground.
+constexpr double kNearGround_m = 100.0;
 
 /// Where the numbers of a chord lie in a lattice node.
 enum Slot {
@@ -42,6 +44,19 @@ public:
         reference_lon_deg_ = origin.lon_deg;
     }
 
+    /// Makes all chords end so far from the sensor when it stands near the ground and not all of the image's corners and
+    /// edges come down to it within that distance; tells whether.
+    bool open_beyond(double reach_m) {
+        const bool frame = image_.scan.kind == ScanLaw::Kind::Frame;
+        if (!frame || !(reach_m > 0.0) || image_.path.at(0.0).position.h_m > top_m_ + kNearGround_m) return false;
+        for (const double u : {0.0, 0.5, 1.0})
+            for (const double v : {0.0, 0.5, 1.0}) {
+                const auto s = sightline(image_, 0.0, u * image_.samples, v * image_.lines);
+                if (!(distance_to_height_m(s.ray, bottom_m_) <= reach_m)) reach_m_ = reach_m;
+            }
+        return reach_m_ > 0.0;
+    }
+
     [[nodiscard]] ChordNode at(double scan, double u, double v) const {
         const Sightline s = sightline(image_, scan, u, v);
         const auto& position = s.pose.position;
@@ -50,8 +65,9 @@ public:
                               fmt::format("the platform is at {:.1f} m above the ellipsoid, not above the lowest ground "
                                           "of the scene at {:.1f} m",
                                           position.h_m, bottom_m_));
-        const double bottom_range_m = distance_to_height_m(s.ray, bottom_m_);
-        const bool starts_inside = position.h_m <= top_m_;
+        const bool is_open = reach_m_ > 0.0;
+        const double bottom_range_m = is_open ? reach_m_ : distance_to_height_m(s.ray, bottom_m_);
+        const bool starts_inside = is_open || position.h_m <= top_m_;
         const double top_range_m = starts_inside ? 0.0 : distance_to_height_m(s.ray, top_m_);
         if (std::isnan(bottom_range_m) || std::isnan(top_range_m)) throw misses_ground(s.pose, scan, u, v);
         const auto top = starts_inside ? position : gis::geodetic_from_ecef(s.ray.origin_m + top_range_m * s.ray.direction);
@@ -69,7 +85,7 @@ public:
                 (starts_inside ? top.h_m : top_m_) - origin_m_.z,
                 bottom_xy[0] - origin_m_.x,
                 bottom_xy[1] - origin_m_.y,
-                bottom_m_ - origin_m_.z,
+                (is_open ? bottom.h_m : bottom_m_) - origin_m_.z,
                 unwrapped(top.lon_deg),
                 top.lat_deg,
                 unwrapped(bottom.lon_deg),
@@ -105,6 +121,7 @@ private:
     const gis::MapProjection& map_;
     Vec3 origin_m_;
     double bottom_m_, top_m_, reference_lon_deg_ = 0.0;
+    double reach_m_ = 0.0;  ///< of open chords, else 0
 };
 
 /// Weights of the cubic through four neighbours at fraction f between the second and the third (f may leave [0, 1]).
@@ -218,8 +235,9 @@ double stride_error(const ExactChords& exact, const ChordLattice& lattice, doubl
 }  // namespace
 
 ImageChords::ImageChords(const ImageGeometry& image, const gis::MapProjection& map, Vec3 scene_origin_m, double bottom_m,
-                         double top_m) {
-    const ExactChords exact(image, map, scene_origin_m, bottom_m, top_m);
+                         double top_m, double reach_m) {
+    ExactChords exact(image, map, scene_origin_m, bottom_m, top_m);
+    open_ = exact.open_beyond(reach_m);
     const ScanLaw& law = image.scan;
     double widest = 1.0;
     for (const auto& zone : law.zones) widest = std::max<double>(widest, zone.width);

@@ -7,7 +7,8 @@
 
 namespace pyroscene::sensors {
 
-/// A pixel's line of sight cut by the scene's upper and lower height, in the scene frame, with the view at both ends.
+/// A pixel's line of sight cut by the scene's upper and lower height, in the scene frame, with the view at both ends. Where the
+/// lines of sight are open (ImageChords::open) it runs from the sensor to a fixed distance instead.
 struct Chord {
     Vec3 top_m, bottom_m;  ///< scene frame (map minus origin)
     double top_lon_deg = 0.0, top_lat_deg = 0.0, bottom_lon_deg = 0.0, bottom_lat_deg = 0.0;
@@ -51,15 +52,21 @@ class ImageChords {
 public:
     /// \param scene_origin_m map coordinates of the scene frame's origin  \param bottom_m, top_m ellipsoidal heights of the
     /// two shells; a platform below the upper shell starts the chord itself.
-    /// Throws an input error when the instrument does not look at the ground.
+    /// \param reach_m  farther from a camera that stands near the ground nothing of the scene is looked for (0 = never): when not
+    /// all of its lines of sight come down within it they are open
+    /// Throws an input error when any other instrument does not look at the ground.
     ImageChords(const ImageGeometry& image, const gis::MapProjection& map, Vec3 scene_origin_m, double bottom_m,
-                double top_m);
+                double top_m, double reach_m = 0.0);
+
+    /// Lines of sight do not end below the ground but `reach_m` away, wherever that is: they may look into the sky.
+    [[nodiscard]] bool open() const noexcept { return open_; }
 
     /// Chords of a scan. Positions may be a little (4 pixels) outside it. Cheap, but make it once per run of pixels.
     [[nodiscard]] ScanChords scan(int number) const;
 
 private:
     ChordLattice lattice_;
+    bool open_ = false;
     int first_scan_ = 0, stride_ = 1, scan_nodes_ = 1;  ///< lattice nodes along the scans
     std::vector<ChordNode> nodes_;                      ///< [scan node][row][col]
 };

@@ -14,6 +14,7 @@
 #include "pipeline/ground_reflectance.h"
 #include "pipeline/plume_scene.h"
 #include "radiometry/atmosphere.h"
+#include "radiometry/planck.h"
 #include "radiometry/soot.h"
 #include "radiometry/transport_grid.h"
 
@@ -176,6 +177,19 @@ int surroundings_material(const Scenario& scenario, const SceneInputs& in, std::
     return static_cast<int>(std::max_element(cells.begin(), cells.end()) - cells.begin());
 }
 
+/// Temperature of the air near the ground: what 150 m of it radiate at the wavelength where they are least transparent.
+double air_temperature_K(const radiometry::AtmosphereSet& set, radiometry::AtmosphereConditions conditions) {
+    constexpr double kThermal_um = 4.0;
+    conditions.sensor_altitude_agl_m = 150.0;
+    const auto air = radiometry::evaluate(set, {conditions, 0.0, 0.0});
+    std::size_t opaque = 0;
+    for (std::size_t i = 0; i < air.wavelength_um.size(); ++i)
+        if (air.wavelength_um[i] > kThermal_um && air.transmittance[i] < air.transmittance[opaque]) opaque = i;
+    const double opacity = 1.0 - air.transmittance[opaque];
+    if (!(air.wavelength_um[opaque] > kThermal_um && opacity > 0.5)) return 0.0;
+    return radiometry::brightness_temperature(air.wavelength_um[opaque], air.path_thermal[opaque] / opacity);
+}
+
 }  // namespace
 
 SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& in, const FireScene& fire,
@@ -230,6 +244,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
 
     if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, set->tables.front(), out.grid);
     out.atmosphere = radiometry::make_view_atmosphere(*set, conditions, out.grid, albedo);
+    out.air_K = air_temperature_K(*set, conditions);
     for (const auto& warning : radiometry::atmosphere_warnings(*set, conditions)) report.warn("atmosphere: " + warning);
     return out;
 }

@@ -49,6 +49,7 @@ struct SpectralScene {
     render::SceneOptics optics;
     radiometry::ViewAtmosphere atmosphere;
     int surroundings_material = -1;  ///< of the ground around the scene; -1 = no data there
+    double air_K = 0.0;              ///< near the ground; 0 without air
 };
 /// \param sensor_agl_m sensor height above the mean terrain  \param sun position at the scene centre
 SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const FireScene& fire,

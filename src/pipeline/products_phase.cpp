@@ -18,6 +18,7 @@
 #include "pipeline/qgis_style.h"
 #include "pipeline/quicklook.h"
 #include "pipeline/rendered_image.h"
+#include "pipeline/spectrum_file.h"
 #include "pipeline/stac.h"
 #include "pipeline/state_file.h"
 #include "radiometry/planck.h"
@@ -37,10 +38,16 @@ Product brightness_product(const ProductJob& job, const RenderedImage& r) {
     Product p{"brightness_temperature", {}, {}};
     for (std::size_t k = 0; k < job.bands.size(); ++k) {
         const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
-        const radiometry::BandThermometer thermometer(band.response);
+        // A thermometer is a table of a few hundred integrals: worth making for more pixels than that.
+        constexpr std::size_t kFew = 256;
+        std::optional<radiometry::BandThermometer> table;
+        if (r.n > kFew) table.emplace(band.response);
+        const auto temperature_K = [&](double radiance) {
+            return table ? table->temperature_K(radiance) : radiometry::band_brightness_temperature(radiance, band.response);
+        };
         p.bands.push_back({band.id + " brightness temperature", "K", band.centre_um, band.fwhm_um, {{"band_id", band.id}}});
         for (std::size_t i = 0; i < r.n; ++i)
-            p.pixels.push_back(static_cast<float>(thermometer.temperature_K(r.radiance.pixels[k * r.n + i])));
+            p.pixels.push_back(static_cast<float>(temperature_K(r.radiance.pixels[k * r.n + i])));
     }
     return p;
 }
@@ -198,6 +205,18 @@ void write_picture(const ProductJob& job, const RenderedImage& r, const Product&
     write_quicklook(job.files.folder / ("quicklook" + job.files.suffix + ".png"), caption, panels, r.gsd_m);
 }
 
+/// An image of one pixel is a spectrum: a table, and a diagram in place of a picture.
+void write_spectrum(const ProductJob& job, const RenderedImage& r, const Product& brightness) {
+    PixelSpectrum s{fmt::format("{}  {}  {}  SYNTHETIC", job.scenario.name, job.acquisition.id, job.sensor.id),
+                    {},
+                    {r.radiance.pixels.begin(), r.radiance.pixels.end()},
+                    brightness.pixels};
+    for (const int b : job.bands) s.bands.push_back(&job.sensor.bands[static_cast<std::size_t>(b)]);
+    write_spectrum_table(job.files.folder / ("spectrum" + job.files.suffix + ".csv"), s);
+    if (job.scenario.products.quicklook)
+        write_spectrum_plot(job.files.folder / ("quicklook" + job.files.suffix + ".png"), s);
+}
+
 std::vector<std::array<double, 2>> footprint(const RenderedImage& r) {
     // Along the image's rim, eight points a side, skipping pixels that see nothing; then counter-clockwise.
     std::vector<std::array<double, 2>> ring;
@@ -274,26 +293,29 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
     }
     MapGrid grid = job.inputs.grid;
     std::optional<analysis::OrthoLookup> lookup;
-    if (wanted.ortho || wanted.native) {
+    if ((wanted.ortho || wanted.native) && r.gsd_m > 0.0) {  // a single pixel, or one that sees no ground, has no size
         timer.emplace(report, "products/ortho");
         grid = analysis::ortho_grid(job.inputs.grid, ortho_cell_m(r.gsd_m), r.x_m, r.y_m);
         lookup = visible_ground(job, r, grid, report);
         stage(0.4);
     }
-    if (wanted.ortho) {
+    if (wanted.ortho && lookup) {
         write_ortho(job, r, radiance_product(r), *lookup);
         for (std::size_t i = 0; i < made.size(); ++i) {
             stage(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(made.size()));
             if (!made[i].stem.empty()) write_ortho(job, r, made[i], *lookup);
         }
     }
-    if (wanted.native) {
+    if (wanted.native && lookup) {
         timer.emplace(report, "products/native");
         write_native(job, r, *lookup, report);
     }
     stage(0.9);
     timer.emplace(report, "products/quicklook");
-    if (wanted.quicklook) write_picture(job, r, made.front());
+    if (r.n == 1 && job.bands.size() > 1)
+        write_spectrum(job, r, made.front());
+    else if (wanted.quicklook)
+        write_picture(job, r, made.front());
     write_stac_item(job, stac_image(job, r, grid));
     report.count("products/" + job.acquisition.id, 1);
     stage(1.0);

@@ -86,7 +86,9 @@ std::vector<double> geolocate(const RadianceImage& image, const sensors::ImageGe
             if (!(image.coverage[i] > 0.0F)) continue;
             const auto position = sensors::scan_position_of(geometry, sample, line);
             const auto chord = scan.at(position.u, position.v);
-            const double f = (chord.top_m.z - image.hit_z_m[i]) / (chord.top_m.z - chord.bottom_m.z);
+            const Vec3 hit_m{image.hit_x_m[i], image.hit_y_m[i], image.hit_z_m[i]}, way_m = chord.bottom_m - chord.top_m;
+            const double f = chords.open() ? dot(hit_m - chord.top_m, way_m) / dot(way_m, way_m)
+                                           : (chord.top_m.z - hit_m.z) / (chord.top_m.z - chord.bottom_m.z);
             const double lon = std::lerp(chord.top_lon_deg, chord.bottom_lon_deg, f);
             const double lat = std::lerp(chord.top_lat_deg, chord.bottom_lat_deg, f);
             const Vec3 v = chord.view_enu;
@@ -257,13 +259,14 @@ void write_truth(const GroupJob& job, const RadianceImage& image, const std::vec
     gis::write_geotiff(job.files.truth(), out, std::span<const float>(pixels));
 }
 
-void report_image(const GroupJob& job, const RadianceImage& image, const render::RenderScene& scene, RunReport& report) {
+void report_image(const GroupJob& job, const RadianceImage& image, const render::RenderScene& scene, bool open,
+                  RunReport& report) {
     const auto pixels = static_cast<std::int64_t>(image.coverage.size());
     report.count("pixels", pixels);
     const auto missed = std::count_if(image.coverage.begin(), image.coverage.end(), [](float c) { return !(c > 0.0F); });
-    if (missed == pixels)
+    if (missed == pixels && !open)
         throw input_error(fmt::format("acquisition '{}'", job.acquisition.id), "the camera does not see the map at all");
-    if (missed > 0)
+    if (missed > 0 && !open)
         report.warn(fmt::format("acquisition '{}': {} of {} pixels look past the scene and {}", job.acquisition.id, missed,
                                 pixels, scene.surroundings ? "show its surroundings (render.background)" : "are no data"));
     report.count("transport_wavelengths/" + job.acquisition.id, scene.optics->lambda_count);
@@ -323,11 +326,11 @@ void set_rays(const GroupJob& job, const sensors::ImageChords& chords, render::I
             const double width = sensors::scan_pixel_width(geometry.scan, geometry.first_sample + sample);
             for (const auto& [dx, dy] : pattern.offset) {
                 const auto ends = scan.ends(centre.u + dx * width, centre.v + dy);
-                out[k++] = deleted ? kNowhere : render::SceneRay{ends.top_m, ends.bottom_m};
+                out[k++] = deleted ? kNowhere : render::SceneRay{ends.top_m, ends.bottom_m, chords.open()};
             }
         }
     };
-    if (points) return;
+    if (points || chords.open()) return;  // halves are judged by where they meet the ground
     request.parts_per_axis = n;
     request.part_levels = sensors::PsfShares::kLevels;
     request.parts = [&geometry, &chords, shares_u = sensors::PsfShares(across, n),
@@ -352,6 +355,53 @@ void set_rays(const GroupJob& job, const sensors::ImageChords& chords, render::I
     };
 }
 
+/// A point in the scene frame, whose z is height itself.
+Vec3 scene_point(const gis::MapProjection& map, Vec3 origin_m, const gis::Geodetic& at) {
+    const auto xy = map.to_map(at.lat_deg, at.lon_deg);
+    return {xy[0] - origin_m.x, xy[1] - origin_m.y, at.h_m - origin_m.z};
+}
+
+double farthest_corner_m(const SceneInputs& in, Vec3 from_m) {
+    const auto& g = in.grid;
+    double farthest_m = 0.0;
+    for (const double x : {0.0, g.cols * g.cell_m})
+        for (const double y : {0.0, g.rows * g.cell_m})
+            farthest_m = std::max(
+                farthest_m, std::hypot(g.west_m + x - in.origin_m.x - from_m.x, g.north_m - y - in.origin_m.y - from_m.y));
+    return farthest_m;
+}
+
+/// To the nearest voxel of flame; 0 without flame.
+double distance_to_flame_m(const fire::FlameField& flame, Vec3 from_m) {
+    const fire::VoxelGrid& grid = flame.grid;
+    const auto gap = [](double at, double low, double width) { return std::max({low - at, at - low - width, 0.0}); };
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < flame.brick_cols * flame.brick_rows; ++c) {
+        const auto& column = flame.columns[static_cast<std::size_t>(c)];
+        for (int n = 0; n < column.brick_count * fire::FlameField::kBrickVoxels; ++n) {
+            constexpr int kEdge = fire::FlameField::kBrickEdge;
+            const int brick = n / fire::FlameField::kBrickVoxels, voxel = n % fire::FlameField::kBrickVoxels;
+            const auto b = static_cast<std::size_t>(column.first_brick + brick);
+            if (!(flame.bricks[b].fill[static_cast<std::size_t>(voxel)] > 0.0F)) continue;
+            const int i = c % flame.brick_cols * kEdge + voxel % kEdge,
+                      j = c / flame.brick_cols * kEdge + voxel / kEdge % kEdge,
+                      k = (column.z_begin + brick) * kEdge + voxel / (kEdge * kEdge);
+            const Vec3 away{gap(from_m.x, grid.corner_m.x + i * grid.dx_m, grid.dx_m),
+                            gap(from_m.y, grid.corner_m.y + j * grid.dy_m, grid.dy_m),
+                            gap(from_m.z, grid.corner_m.z + k * grid.dz_m, grid.dz_m)};
+            nearest_m = std::min(nearest_m, length(away));
+        }
+    }
+    return std::isfinite(nearest_m) ? nearest_m : 0.0;
+}
+
+/// Height above the ground from which a path at the largest view angle of the atmosphere tables is so long: near the ground
+/// the air along a level line of sight is that of a slant path of the same length.
+double height_of_slant_path_m(double length_m) {
+    constexpr double kLargestViewZenith_deg = 65.0;
+    return length_m * std::cos(kLargestViewZenith_deg * kDegree_rad);
+}
+
 }  // namespace
 
 void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report) {
@@ -362,12 +412,14 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
 
     std::vector<Spectrum> responses;
     for (const int b : job.bands) responses.push_back(job.sensor.bands[static_cast<std::size_t>(b)].response);
-    const double sensor_agl_m = std::max(1.0, job.geometry.path.at(0.0).position.h_m - in.mean_height_m);
-    const auto spectral = make_spectral_scene(scenario, in, job.fire, responses, sensor_agl_m, sun.centre(), report);
-
     const double flame_top_m = std::max(job.fire.flame.z_range_m()[1], job.fire.plume.z_range_m()[1]);
+    const auto sensor = job.geometry.path.at(0.0).position;
+    const Vec3 sensor_m = scene_point(map, in.origin_m, sensor);
     const sensors::ImageChords chords(job.geometry, map, in.origin_m, in.lowest_m - 10.0,
-                                      std::max(in.highest_m, flame_top_m) + 10.0);
+                                      std::max(in.highest_m, flame_top_m) + 10.0, 2.0 * farthest_corner_m(in, sensor_m));
+    const double sensor_agl_m = chords.open() ? height_of_slant_path_m(distance_to_flame_m(job.fire.flame, sensor_m))
+                                              : std::max(1.0, sensor.h_m - in.mean_height_m);
+    const auto spectral = make_spectral_scene(scenario, in, job.fire, responses, sensor_agl_m, sun.centre(), report);
 
     render::RenderScene scene;
     scene.terrain = &job.terrain;
@@ -378,6 +430,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     scene.optics = &spectral.optics;
     scene.spectral = &spectral.grid;
     scene.atmosphere = &spectral.atmosphere;
+    scene.air_K = spectral.air_K;
     scene.scene_origin_m = in.origin_m;
     scene.to_sun = scenario.render.sun ? sun_direction(sun.centre(), map.convergence_rad(in.origin_m.x, in.origin_m.y))
                                        : Vec3{0.0, 0.0, -1.0};
@@ -395,7 +448,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
         const auto position = sensors::scan_position_of(job.geometry, sample, line);
         const Vec3 v = chords.scan(position.scan).at(position.u, position.v).view_enu;
         const double line_of_sight_rad = std::atan2(v.x, v.y) + kPi;
-        return render::PixelView{std::atan2(std::hypot(v.x, v.y), v.z),
+        return render::PixelView{std::atan2(std::hypot(v.x, v.y), std::abs(v.z)),
                                  std::remainder(sun_azimuth_rad - line_of_sight_rad, 2.0 * kPi)};
     };
     request.terms = scenario.products.truth;
@@ -405,7 +458,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
         const PhaseTimer timer(report, "render/image");
         image = render::render_image(scene, &light, request, monitor);
     }
-    report_image(job, image, scene, report);
+    report_image(job, image, scene, chords.open(), report);
 
     const PhaseTimer timer(report, "render/write");
     const auto planes = geolocate(image, job.geometry, chords, sun);

@@ -43,6 +43,17 @@ void GroundMix::add(int material, double temperature_K, double weight, const Gro
     }
 }
 
+void GroundMix::add_sky(double zenith_cosine, double weight) noexcept {
+    const auto& nodes = OpenSky::kCosine;
+    const double at = std::clamp(zenith_cosine, nodes.front(), nodes.back());
+    const auto above = std::min<std::size_t>(
+        static_cast<std::size_t>(std::upper_bound(nodes.begin(), nodes.end(), at) - nodes.begin()), nodes.size() - 1);
+    const double f = (at - nodes[above - 1]) / (nodes[above] - nodes[above - 1]);
+    sky_weight_ += static_cast<float>(weight);
+    sky_node_weight_[above - 1] += static_cast<float>((1.0 - f) * weight);
+    sky_node_weight_[above] += static_cast<float>(f * weight);
+}
+
 void GroundMix::resolve_lit(const LitPart& part, const GroundIrradiance& flame_light, GroundSpectra& out) const {
     const SceneTables& t = *tables_;
     const auto offset = static_cast<std::size_t>(part.row) * static_cast<std::size_t>(flame_light.stride);
@@ -98,6 +109,13 @@ void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out)
         add(t.slopes_thermal, reflection.hidden, GroundSpectra::ThermalSky);
         reflection = {};
     }
+    if (sky_weight_ != 0.0F) {
+        kernels_->add_rows(t.stride, t.open_sky.sunlit.data(), t.stride, 1, &sky_weight_, out.part(GroundSpectra::Sky));
+        kernels_->add_rows(t.stride, t.open_sky.thermal.data(), t.stride, static_cast<int>(sky_node_weight_.size()),
+                           sky_node_weight_.data(), out.part(GroundSpectra::ThermalSky));
+        sky_weight_ = 0.0F;
+        sky_node_weight_ = {};
+    }
     if (flame_light != nullptr) {
         for (const LitPart& part : lit_) resolve_lit(part, *flame_light, out);
     }
@@ -124,6 +142,7 @@ GroundCell ground_cell(const RenderScene& scene, const SceneTables& tables, Vec3
 
 void add_ground(const SceneTables& tables, const GroundCell& ground, double weight, const GroundLight& light,
                 GroundMix& mix) {
+    if (ground.sky) return mix.add_sky(ground.zenith_cosine, weight);
     const double f = ground.front_fraction;
     if (f > 0.0) mix.add(tables.burnt_material, tables.front_K, weight * f, light);
     if (f < 1.0) mix.add(ground.base_material, ground.base_K, weight * (1.0 - f), light);

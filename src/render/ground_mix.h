@@ -41,9 +41,11 @@ public:
 
     /// Ground of one material and temperature that fills `weight` of the view.
     void add(int material, double temperature_K, double weight, const GroundLight& light);
+    /// The open sky itself, at a zenith angle of this cosine.
+    void add_sky(double zenith_cosine, double weight) noexcept;
     /// Adds the spectra of all that was gathered to `out` and forgets it.
     void resolve(const GroundIrradiance* flame_light, GroundSpectra& out);
-    [[nodiscard]] bool empty() const noexcept { return touched_.empty(); }
+    [[nodiscard]] bool empty() const noexcept { return touched_.empty() && sky_weight_ == 0.0F; }
 
 private:
     struct Reflection {
@@ -74,14 +76,18 @@ private:
     std::vector<LitPart> lit_;
     std::vector<ShadedPart> shaded_;
     std::vector<float> through_, sky_;
+    float sky_weight_ = 0.0F;
+    std::array<float, OpenSky::kCosine.size()> sky_node_weight_{};
 };
 
-/// The ground at one place: what burns, what has burned, which material.
+/// What a ray ends on: the ground at one place, what burns, what has burned, which material; or the sky.
 struct GroundCell {
     int base_material = 0;
     double base_K = 0.0;          ///< NaN or 0 where there is no data
     double front_fraction = 0.0;  ///< part that flames
     bool burned = false;
+    bool sky = false;          ///< no ground at all
+    double zenith_cosine = 0;  ///< of the sky seen
 };
 
 /// The ground under a point of the scene frame.

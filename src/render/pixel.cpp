@@ -49,14 +49,17 @@ std::optional<Pixel::Met> Pixel::meet(const SceneRay& ray) const {
         const GroundCell ground = ground_cell(p.scene, p.tables, hit->point_m);
         if (ground.base_K > 0.0) return Met{*hit, ground, true};
     }
-    if (!p.scene.surroundings) return std::nullopt;
-    const auto& level = *p.scene.surroundings;
-    const double f = (ray.start_m.z - level.height_m) / (ray.start_m.z - ray.end_m.z);
-    if (!(f >= 0.0 && f <= 1.0)) return std::nullopt;  // looks nowhere, or never comes down
-    const Vec3 step_m = f * (ray.end_m - ray.start_m);
-    return Met{{length(step_m), ray.start_m + step_m, {0.0, 0.0, 1.0}},
-               {.base_material = level.material, .base_K = static_cast<double>(p.tables.ambient_K)},
-               false};
+    const Vec3 way_m = ray.end_m - ray.start_m;
+    if (p.scene.surroundings) {
+        const auto& level = *p.scene.surroundings;
+        const double f = (level.height_m - ray.start_m.z) / way_m.z;
+        if (f >= 0.0 && (f <= 1.0 || (ray.open && std::isfinite(f))))
+            return Met{{f * length(way_m), ray.start_m + f * way_m, {0.0, 0.0, 1.0}},
+                       {.base_material = level.material, .base_K = static_cast<double>(p.tables.ambient_K)},
+                       false};
+    }
+    if (!ray.open) return std::nullopt;  // looks nowhere, or never comes down
+    return Met{{length(way_m), ray.end_m, {}}, {.sky = true, .zenith_cosine = normalized(way_m).z}, false};
 }
 
 void Pixel::add(const SceneRay& ray, const Met& met, double weight) {
@@ -65,7 +68,10 @@ void Pixel::add(const SceneRay& ray, const Met& met, double weight) {
     const GroundCell& ground = met.ground;
     truth_.seen += weight;
     if (met.scene) truth_.coverage += weight;
-    truth_.hit_m = truth_.hit_m + weight * hit_m;
+    if (ground.sky)
+        truth_.sky += weight;
+    else
+        truth_.hit_m = truth_.hit_m + weight * hit_m;
 
     if (smoke_ray_ && smoke_ray_->march(ray.start_m, hit_m)) {
         add_ground_truth(ground, weight * mixed_truth(weight));
@@ -102,11 +108,11 @@ GroundLight Pixel::light_at(const Met& met) const {
     return light;
 }
 
-void Pixel::march(Vec3 start_m, Vec3 hit_m) {
+void Pixel::march(Vec3 start_m, Vec3 end_m) {
     pieces_.clear();
     double depth = 0.0;
     const double least = prepared_->tables.least_absorption_per_m;
-    march_flame(prepared_->flame, start_m, hit_m, [&](float T_K, float fill, double length_m) {
+    march_flame(prepared_->flame, start_m, end_m, [&](float T_K, float fill, double length_m) {
         const double fill_length_m = fill * length_m;
         if (!pieces_.empty() && pieces_.back().temperature_K == T_K)
             pieces_.back().fill_length_m += fill_length_m;
@@ -226,6 +232,7 @@ void Pixel::add_mixed(double weight, const GroundCell& ground, const GroundLight
 }
 
 void Pixel::add_ground_truth(const GroundCell& ground, double weight) {
+    if (ground.sky) return;
     const SceneTables& t = prepared_->tables;
     const double front = weight * ground.front_fraction, rest = weight - front;
     const auto emissivity = [&](int material) { return t.broadband_emissivity[static_cast<std::size_t>(material)]; };

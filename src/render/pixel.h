@@ -35,8 +35,9 @@ struct PreparedScene {
 /// What the rays of one pixel met, as sums of ray weights; opacities and transmittances of flame are those at 4.0 um.
 struct PixelTruth {
     double coverage = 0.0;  ///< that met the scene
-    double seen = 0.0;      ///< that met the scene or its surroundings
-    Vec3 hit_m;             ///< weighted sum
+    double seen = 0.0;      ///< that met the scene or its surroundings, or ended in the sky
+    double sky = 0.0;       ///< that ended in the sky
+    Vec3 hit_m;             ///< weighted sum over those that met ground
     double flame = 0.0, smoke = 0.0, front = 0.0, scar = 0.0, background = 0.0;
     double flame_T4 = 0.0;   ///< sum of (tau_i - tau_{i+1}) T^4
     double ground_T4 = 0.0;  ///< sum of tau T^4
@@ -49,15 +50,15 @@ public:
     explicit Pixel(const PreparedScene& prepared);
 
     void begin();
-    /// Ground that a sub-ray ends on.
+    /// Ground, or sky, that a sub-ray ends on.
     struct Met {
         TerrainMesh::Hit hit;
         GroundCell ground;
-        bool scene = true;  ///< false: the surroundings
+        bool scene = true;  ///< false: the surroundings or the sky
     };
-    /// nullopt where there is neither scene nor surroundings.
+    /// nullopt where there is neither scene nor surroundings nor sky.
     [[nodiscard]] std::optional<Met> meet(const SceneRay& ray) const;
-    /// Adds one sub-ray: flame, and ground behind it (eq 4.11 with the ground term).
+    /// Adds one sub-ray: flame, and ground or sky behind it (eq 4.11 with the ground term).
     void add(const SceneRay& ray, const Met& met, double weight);
     void add_ray(const SceneRay& ray, double weight) {
         if (const auto met = meet(ray)) add(ray, *met, weight);
@@ -79,7 +80,7 @@ private:
         double fill_length_m;  ///< length x filled fraction
     };
     [[nodiscard]] GroundLight light_at(const Met& met) const;
-    void march(Vec3 start_m, Vec3 hit_m);
+    void march(Vec3 start_m, Vec3 end_m);
     double flame_truth(double weight);
     double add_grey_flame(double weight);
     void emit_soot(double weight);

@@ -65,12 +65,13 @@ RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request)
 }
 
 void write_truth(const PixelTruth& truth, std::size_t at, RadianceImage& image) {
-    const double seen = truth.seen;
-    const auto share = [&](double sum) { return seen > 0.0 ? sum / seen : static_cast<double>(kNaN); };
+    const auto ratio = [](double sum, double of) { return of > 0.0 ? sum / of : static_cast<double>(kNaN); };
+    const auto share = [&](double sum) { return ratio(sum, truth.seen); };
+    const double placed = truth.seen - truth.sky;
     image.coverage[at] = static_cast<float>(truth.coverage);
-    image.hit_x_m[at] = share(truth.hit_m.x);
-    image.hit_y_m[at] = share(truth.hit_m.y);
-    image.hit_z_m[at] = share(truth.hit_m.z);
+    image.hit_x_m[at] = ratio(truth.hit_m.x, placed);
+    image.hit_y_m[at] = ratio(truth.hit_m.y, placed);
+    image.hit_z_m[at] = ratio(truth.hit_m.z, placed);
     image.flame_fraction[at] = static_cast<float>(share(truth.flame));
     if (!image.smoke_fraction.empty()) image.smoke_fraction[at] = static_cast<float>(share(truth.smoke));
     image.front_fraction[at] = static_cast<float>(share(truth.front));
@@ -121,7 +122,8 @@ public:
                 continue;
             }
             PixelView view;
-            if (output_.needs_view() && request_.view) view = request_.view(line, sample, truth.hit_m / truth.seen);
+            if (output_.needs_view() && request_.view)
+                view = request_.view(line, sample, truth.hit_m / std::max(truth.seen - truth.sky, 1e-30));
             output_.compute(pixel_, view, out, out + bands_);
         }
         write_planes(line, begin, end, image);

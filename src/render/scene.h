@@ -25,6 +25,7 @@ namespace pyroscene::render {
 /// A straight piece of a line of sight in the scene frame, from the sensor side to below the ground.
 struct SceneRay {
     Vec3 start_m, end_m;
+    bool open = false;  ///< where it meets no ground it looks into the sky, not past the scene
 };
 
 /// Terms of the at-sensor radiance (eq 4.44 with the thermal path and the thermal sky, docs/physics.md). They sum to the total.
@@ -84,6 +85,7 @@ struct RenderScene {
         double height_m = 0.0;  ///< scene frame
     };
     std::optional<Surroundings> surroundings;  ///< nullopt = such rays see nothing
+    double air_K = 0.0;  ///< near the ground: brightens the thermal sky towards the horizon; 0 = the same all over
 };
 
 inline bool has_plume(const RenderScene& scene) noexcept { return scene.plume != nullptr && !scene.plume->empty(); }
@@ -133,7 +135,7 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
 
 /// View geometry of one pixel at the ground, for the atmosphere.
 struct PixelView {
-    double view_zenith_rad = 0.0;
+    double view_zenith_rad = 0.0;       ///< of the line, upward or downward: at most pi/2
     double relative_azimuth_rad = 0.0;  ///< sun azimuth - line of sight azimuth
 };
 
@@ -171,8 +173,9 @@ struct RadianceImage {
     Buffer<float> radiance_W_m2_sr_um;            ///< [band][line][sample], noise-free
     std::array<Buffer<float>, kTermCount> terms;  ///< each as radiance, empty when not asked for (or no plume)
     Buffer<double> hit_x_m, hit_y_m, hit_z_m;     ///< PSF-weighted mean ground point, scene frame
-    Buffer<float> coverage;  ///< weight of sub-rays that met the scene, 0..1; the rest saw its surroundings, if any
-    Buffer<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum with smoke = 1
+    Buffer<float>
+        coverage;  ///< weight of sub-rays that met the scene, 0..1; the rest saw its surroundings or the sky, if any
+    Buffer<float> flame_fraction, front_fraction, scar_fraction, background_fraction;  ///< seen; sum with smoke and sky = 1
     Buffer<float> smoke_fraction;                                                      ///< empty in scenes without a plume
     Buffer<float> flame_temperature_K;    ///< emission-weighted, NaN without flame
     Buffer<float> ground_temperature_K;   ///< (mean T^4)^(1/4) of the ground seen

@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "radiometry/planck.h"
 
 namespace pyroscene::render {
 namespace {
@@ -90,6 +91,20 @@ std::unique_ptr<const radiometry::FlameTable> make_mixture(const RenderScene& sc
     };
     if (table->gases.empty() && std::none_of(optics.lambda_um.begin(), optics.lambda_um.end(), has_lines)) return nullptr;
     return table;
+}
+
+/// Vertical optical depth of a grey layer of uniform temperature from its hemispherical emissivity: solves 1 - 2 E3(t) = e
+/// by Newton's method. Infinite for a layer that cannot be told from a black one.
+double layer_depth(double emissivity) {
+    constexpr double kBlack = 0.999;
+    if (emissivity <= 0.0) return 0.0;
+    if (emissivity > kBlack) return std::numeric_limits<double>::infinity();
+    double t = -std::log1p(-emissivity) / static_cast<double>(kMeanSlant);
+    for (int i = 0; i < 12; ++i) {
+        const double E1 = -std::expint(-t), E2 = std::exp(-t) - t * E1, E3 = 0.5 * (std::exp(-t) - t * E2);
+        t = std::max(t - (1.0 - 2.0 * E3 - emissivity) / (2.0 * E2), 0.5 * t);
+    }
+    return t;
 }
 
 bool any_positive(const std::vector<float>& values) {
@@ -192,11 +207,32 @@ SceneTables::SceneTables(const RenderScene& scene) {
     sun = reflected(air.direct_normal_irradiance_W_m2_um);
     sky = reflected(air.diffuse_irradiance_W_m2_um);
     thermal_sky = reflected(air.thermal_irradiance_W_m2_um);
+    set_open_sky(scene);
     set_slopes(scene);
     for (int m = 0; m < materials; ++m) {
         double sum = 0.0;
         for (int l = 0; l < lambdas; ++l) sum += 1.0 - reflectance(m, l);
         broadband_emissivity.push_back(sum / lambdas);
+    }
+}
+
+void SceneTables::set_open_sky(const RenderScene& scene) {
+    const radiometry::ViewAtmosphere& air = *scene.atmosphere;
+    const auto row = static_cast<std::size_t>(stride);
+    open_sky.stride = stride;
+    open_sky.sunlit.assign(row, 0.0F);
+    open_sky.thermal.assign(row * OpenSky::kCosine.size(), 0.0F);
+    for (std::size_t l = 0; l < static_cast<std::size_t>(lambdas); ++l) {
+        open_sky.sunlit[l] = air.diffuse_irradiance_W_m2_um[l] / static_cast<float>(kPi);
+        const double mean = static_cast<double>(air.thermal_irradiance_W_m2_um[l]) / kPi;
+        const double black = scene.air_K > 0.0 ? radiometry::planck_radiance(scene.optics->lambda_um[l], scene.air_K) : 0.0;
+        const double depth = black > mean ? layer_depth(mean / black) : std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < OpenSky::kCosine.size(); ++k) {
+            constexpr double kLevel = 1e-6;
+            const double L =
+                std::isfinite(depth) ? -black * std::expm1(-depth / std::max(OpenSky::kCosine[k], kLevel)) : mean;
+            open_sky.thermal[k * row + l] = static_cast<float>(L);
+        }
     }
 }
 

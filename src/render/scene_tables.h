@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,6 +22,18 @@ struct SmokeSpectra {
     std::vector<float> extinction_per_m, albedo, asymmetry;
     std::vector<float> sun, sky, thermal_sky;  ///< irradiances: direct normal, horizontal
     std::vector<float> half_sky, half_ground;  ///< half the radiance of the sky, and of the scene's mean ambient ground
+};
+
+/// The sky as rays see it that end in it, on nodes of the cosine of its zenith angle. Sunlit sky is the same all over; the thermal
+/// sky is that of a grey layer at the temperature of the air, whose irradiance is the given one:
+///   L(z) = B [1 - exp(-t sec z)],   1 - 2 E3(t) = E / (pi B)
+/// One as bright as the air or brighter is the same all over.
+struct OpenSky {
+    static constexpr std::array<double, 13> kCosine{0.0,  0.02, 0.045, 0.07, 0.1,  0.14, 0.19,
+                                                    0.25, 0.33, 0.43,  0.56, 0.75, 1.0};
+    int stride = 0;
+    std::vector<float> sunlit;   ///< [stride]
+    std::vector<float> thermal;  ///< [node][stride]
 };
 
 /// Everything of a scene that depends on wavelength only, laid out for the kernels: rows of `stride` floats (the wavelengths,
@@ -56,6 +69,7 @@ struct SceneTables {
     Rows sun, sky, thermal_sky;         ///< radiance reflected from the whole, open sky; sun: per cosine of incidence
     Rows slopes_solar, slopes_thermal;  ///< radiance reflected from a hemisphere full of ambient terrain of the scene's mean
         ///< material: sun and sky that it reflects, what it emits and reflects of the thermal sky
+    OpenSky open_sky;
     Vec3 to_sun;
     bool has_sun = false, has_sky = false, has_thermal_sky = false;
     std::vector<double>
@@ -64,6 +78,7 @@ struct SceneTables {
 
 private:
     void set_slopes(const RenderScene& scene);
+    void set_open_sky(const RenderScene& scene);
     void set_smoke(const RenderScene& scene, std::span<const double> ambient_exitance);
 };
 

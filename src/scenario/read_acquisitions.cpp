@@ -93,7 +93,7 @@ Platform read_platform(const config::Node& node, const fs::path& folder) {
         (node.has("altitude_agl_m") || node.has("altitude_m") || node.has("heading_deg") || node.has("ground_speed_m_s")))
         node.report("'pass' and 'trajectory' bring height, heading and speed with them; leave those keys out");
     platform.heading_deg = node.number("heading_deg", 0.0, Range::between(-360.0, 360.0));
-    platform.pitch_deg = node.number("pitch_deg", 0.0, Range::between(-90.0, 90.0));
+    platform.pitch_deg = node.number("pitch_deg", 0.0, Range::between(-180.0, 180.0));
     platform.roll_deg = node.number("roll_deg", 0.0, Range::between(-180.0, 180.0));
     node.finish();
     return platform;

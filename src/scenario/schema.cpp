@@ -405,7 +405,7 @@ constexpr const char* kSchema = R"json({
               "altitude_agl_m": {"type": "number", "exclusiveMinimum": 0, "maximum": 5e7},
               "altitude_m": {"type": "number", "minimum": -500, "maximum": 5e7},
               "heading_deg": {"type": "number", "minimum": -360, "maximum": 360, "default": 0},
-              "pitch_deg": {"type": "number", "minimum": -90, "maximum": 90, "default": 0},
+              "pitch_deg": {"type": "number", "minimum": -180, "maximum": 180, "default": 0},
               "roll_deg": {"type": "number", "minimum": -180, "maximum": 180, "default": 0},
               "ground_speed_m_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 20000,
                 "description": "of a flight line; default: the sensor file's"},

@@ -58,7 +58,7 @@ TEST(Acquisitions, PlatformIsChecked) {
     EXPECT_EQ(said("{}"), Lines{at + ": key 'altitude_agl_m' (above the terrain) or 'altitude_m' is missing"});
     EXPECT_EQ(said("{altitude_m: 1, altitude_agl_m: 1}"), Lines{at + ": give 'altitude_agl_m' or 'altitude_m', not both"});
     EXPECT_EQ(said("{altitude_agl_m: 0}"), Lines{at + ".altitude_agl_m: must be > 0 and <= 50000000, found 0"});
-    EXPECT_EQ(said("{altitude_m: 1, pitch_deg: 91}"), Lines{at + ".pitch_deg: must be between -90 and 90, found 91"});
+    EXPECT_EQ(said("{altitude_m: 1, pitch_deg: 181}"), Lines{at + ".pitch_deg: must be between -180 and 180, found 181"});
     EXPECT_EQ(said("{altitude_m: 1, heading: 9}"),
               Lines{at + ": unknown key 'heading'; known here: altitude_agl_m, altitude_m, "
                          "ground_speed_m_s, heading_deg, over, pass, pitch_deg, roll_deg, scan_angle_deg, trajectory"});

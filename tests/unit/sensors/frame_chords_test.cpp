@@ -28,14 +28,14 @@ Pose pose_of(const View& v) {
 
 /// Chords of one frame.
 ImageChords frame(const Sensor& sensor, const CameraGroup& camera, const Pose& pose, const gis::MapProjection& map,
-                  Vec3 origin_m, double bottom_m, double top_m) {
+                  Vec3 origin_m, double bottom_m, double top_m, double reach_m = 0.0) {
     const ImageGeometry image{.sensor = &sensor,
                               .group = &camera,
                               .scan = camera.scan,
                               .path = standing(pose),
                               .samples = camera.samples,
                               .lines = camera.lines};
-    return {image, map, origin_m, bottom_m, top_m};
+    return {image, map, origin_m, bottom_m, top_m, reach_m};
 }
 
 class AnyView : public testing::TestWithParam<View> {};
@@ -93,6 +93,43 @@ INSTANTIATE_TEST_SUITE_P(
                     View{"nadir_from_orbit", "EPSG:32611", {46.7, -114.2, 500000.0}, 12, 0, 25, 900.0, 2800.0},
                     View{"lambert", "EPSG:5070", {46.7, -114.2, 6000.0}, 37, 25, -12, 900.0, 2800.0}),
     [](const auto& test) { return std::string(test.param.name); });
+
+/// A level camera near the ground sees ground and sky; its lines of sight all end 800 m away.
+TEST(FrameChords, RunToAFixedDistanceWhereACameraNearTheGroundSeesTheHorizon) {
+    const Sensor wasp = load_sensor("wasp");
+    const CameraGroup& ir = wasp.group("ir");
+    const gis::MapProjection map("EPSG:32611");
+    const Pose pose{.position = {46.7, -114.2, 1002.0}, .heading_rad = 1.2, .pitch_rad = 95.0 * kDegree_rad};
+    const auto under = map.to_map(pose.position.lat_deg, pose.position.lon_deg);
+    const Vec3 origin{under[0], under[1], 0.0};
+    constexpr double kReach_m = 800.0;
+    const ImageChords chords = frame(wasp, ir, pose, map, origin, 990.0, 1010.0, kReach_m);
+    EXPECT_TRUE(chords.open());
+    const double convergence_rad = map.convergence_rad(under[0], under[1]);
+    const auto scan = chords.scan(0);
+    for (std::uint64_t i = 0; i < 500; ++i) {
+        const double sample = 640.0 * uniform01({}, i, 0), line = 512.0 * uniform01({}, i, 1);
+        const Chord chord = scan.at(sample, line);
+        EXPECT_LT(length(chord.top_m - Vec3{0.0, 0.0, 1002.0}), 1e-6);
+        EXPECT_NEAR(chord.bottom_range_m, kReach_m, 1e-9);
+        const Vec3 way_m = chord.bottom_m - chord.top_m;
+        // Map scale is within 1e-3 of 1 and the Earth bends by 5 cm over 800 m.
+        EXPECT_NEAR(length(way_m), kReach_m, 1.0);
+        const gis::LocalAxes axes = gis::local_axes(pose.position.lat_deg, pose.position.lon_deg);
+        const Vec3 looks = pixel_ray(wasp, ir, pose, sample, line).direction;
+        const double azimuth_rad = std::atan2(dot(looks, axes.east), dot(looks, axes.north)) - convergence_rad,
+                     up = dot(looks, axes.up), level = std::sqrt(1.0 - up * up);
+        const Vec3 on_map{level * std::sin(azimuth_rad), level * std::cos(azimuth_rad), up};
+        EXPECT_LT(length(normalized(way_m) - on_map), 1e-3);
+    }
+    // One that sees nothing but ground near by ends below it as ever, and one high above still must.
+    Pose down = pose;
+    down.pitch_rad = 20.0 * kDegree_rad;
+    EXPECT_FALSE(frame(wasp, ir, down, map, origin, 990.0, 1010.0, kReach_m).open());
+    Pose high = pose;
+    high.position.h_m = 3000.0;
+    EXPECT_THROW(frame(wasp, ir, high, map, origin, 990.0, 1010.0, kReach_m), Error);
+}
 
 const View kLow{"low", "EPSG:32611", {46.7, -114.2, 2000.0}, 0, 10, 0, 900.0, 2800.0};
 
