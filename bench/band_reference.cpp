@@ -15,9 +15,10 @@ using radiometry::AtmosphericTerms;
 using radiometry::FlameOptics;
 using radiometry::FlamePath;
 
-/// The air's terms at one wavelength.
+/// The air's terms at one wavelength. Between the samples of the tables each is linear.
 struct Air {
-    double tau = 1.0, thermal = 0.0, solar = 0.0, direct = 0.0, diffuse = 0.0, sky = 0.0;  ///< direct: with its correlation
+    double tau = 1.0, thermal = 0.0, solar = 0.0, diffuse = 0.0, sky = 0.0;
+    double beam = 0.0;  ///< of the sun down, and up to the sensor: E_dir C tau
 };
 
 struct Scene {
@@ -56,8 +57,10 @@ double radiance(const FlameOptics& optics, const Scene& scene, double lambda_um,
     for (const auto& [length_m, T_K] : scene.layers) path.add(length_m, T_K, gas);
     const double facet = 0.7;  // cosine of the sun on the slope
     const double ground = (1.0 - scene.reflectance) * radiometry::planck_radiance(lambda_um, scene.ground_K) +
-                          scene.reflectance / kPi * (facet * air.direct + air.diffuse + air.sky);
-    return air.thermal + air.solar + air.tau * (path.emitted_radiance() + std::exp(-path.depth()) * ground);
+                          scene.reflectance / kPi * (air.diffuse + air.sky);
+    const double through_flame = std::exp(-path.depth());
+    return air.thermal + air.solar + air.tau * (path.emitted_radiance() + through_flame * ground) +
+           through_flame * scene.reflectance / kPi * facet * air.beam;
 }
 
 /// Looks up a table of terms at ascending wavelengths.
@@ -69,10 +72,11 @@ public:
         while (i_ + 2 < x.size() && x[i_ + 1] < lambda_um) ++i_;
         const double f = std::clamp((lambda_um - x[i_]) / (x[i_ + 1] - x[i_]), 0.0, 1.0);
         const auto at = [&](const std::vector<double>& y) { return std::lerp(y[i_], y[i_ + 1], f); };
-        const auto beam = [&](std::size_t i) { return terms_->direct_normal[i] * terms_->solar_correlation[i]; };
-        return {at(terms_->transmittance), at(terms_->path_thermal),
-                at(terms_->path_solar),    std::lerp(beam(i_), beam(i_ + 1), f),
-                at(terms_->diffuse),       at(terms_->thermal_sky)};
+        const auto beam = [&](std::size_t i) {
+            return terms_->direct_normal[i] * terms_->solar_correlation[i] * terms_->transmittance[i];
+        };
+        return {at(terms_->transmittance), at(terms_->path_thermal), at(terms_->path_solar),
+                at(terms_->diffuse),       at(terms_->thermal_sky),  std::lerp(beam(i_), beam(i_ + 1), f)};
     }
 
 private:
@@ -120,10 +124,10 @@ double on_grid(const radiometry::SpectralGrid& grid, std::size_t band, const Fla
             at = {view.transmittance[i],
                   view.path_thermal[i],
                   view.path_solar[i],
-                  static_cast<double>(air.direct_normal_irradiance_W_m2_um[i]) *
-                      static_cast<double>(view.solar_correlation[i]),
                   air.diffuse_irradiance_W_m2_um[i],
-                  air.thermal_irradiance_W_m2_um[i]};
+                  air.thermal_irradiance_W_m2_um[i],
+                  static_cast<double>(air.direct_normal_irradiance_W_m2_um[i]) *
+                      static_cast<double>(view.solar_correlation[i]) * static_cast<double>(view.transmittance[i])};
         sum += grid.weight[i] * radiance(optics, scene, grid.lambda_um[i], at);
     }
     return sum;

@@ -149,15 +149,40 @@ FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const
 
 namespace {
 
-/// Transport wavelengths; where flame gas absorbs they are picked for this scene's air, seen at a few angles.
-radiometry::SpectralGrid make_grid(const std::vector<Spectrum>& responses, const render::SceneOptics& optics,
-                                   const radiometry::AtmosphereSet* set,
-                                   const radiometry::AtmosphereConditions& conditions) {
-    if (!optics.flame_tables) return radiometry::make_spectral_grid(responses);
-    radiometry::SpectralStructure structure{optics.flame_tables.get(), optics.flame_gas, {}};
-    if (set != nullptr) {
+/// The air of an acquisition: what surrounds it, and its tables unless there is none.
+struct SceneAir {
+    radiometry::AtmosphereConditions conditions;
+    std::optional<radiometry::AtmosphereSet> set;
+};
+SceneAir scene_air(const Scenario& scenario, const SceneInputs& in, double sensor_agl_m,
+                   const radiometry::SunPosition& sun) {
+    SceneAir air;
+    air.conditions.sensor_altitude_agl_m = sensor_agl_m;
+    air.conditions.ground_elevation_m = scenario.atmosphere.ground_elevation_m.value_or(in.mean_height_m);
+    air.conditions.visibility_km = scenario.atmosphere.visibility_km;
+    air.conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
+    air.conditions.sun_distance_AU = sun.distance_AU;
+    if (scenario.atmosphere.model != "none" || scenario.atmosphere.file)
+        air.set = load_atmosphere(scenario, air.conditions.ground_elevation_m);
+    return air;
+}
+
+/// Tables of what flames hold beside soot; null where the scenario leaves it out.
+std::shared_ptr<const radiometry::FlameOptics> flame_tables(const Scenario& scenario) {
+    if (!scenario.flame.hot_gas || scenario.flame.grey_absorption_per_m || scenario.flame.off) return nullptr;
+    static const auto tables =
+        std::make_shared<const radiometry::FlameOptics>(radiometry::load_flame_optics(data_folder() / "optical"));
+    return tables;
+}
+
+/// Transport wavelengths; with hot gas they are picked for this scene's air, seen at a few angles.
+radiometry::SpectralGrid make_grid(const std::vector<Spectrum>& responses, const radiometry::FlameOptics* tables,
+                                   const FlameGas& gas, const SceneAir& air) {
+    if (tables == nullptr) return radiometry::make_spectral_grid(responses);
+    radiometry::SpectralStructure structure{tables, gas, {}};
+    if (air.set) {
         for (const double view_deg : {0.0, 25.0, 50.0})
-            structure.air.push_back(radiometry::evaluate(*set, {conditions, view_deg * kDegree_rad, kPi / 2.0}));
+            structure.air.push_back(radiometry::evaluate(*air.set, {air.conditions, view_deg * kDegree_rad, kPi / 2.0}));
     }
     return radiometry::make_spectral_grid(responses, structure);
 }
@@ -175,6 +200,22 @@ int surroundings_material(const Scenario& scenario, const SceneInputs& in, std::
     std::vector<std::size_t> cells(names.size(), 0);
     for (const auto material : in.cover.values) cells[material] += 1;
     return static_cast<int>(std::max_element(cells.begin(), cells.end()) - cells.begin());
+}
+
+/// The surroundings that scatter light into the view: share of each material in the area of the map, burnt ground last.
+std::vector<double> shares_of_ground(const SceneInputs& in, const fire::SurfaceField& surface, std::size_t materials) {
+    std::vector<double> share(materials, 0.0);
+    const MapGrid& fine = surface.grid;
+    const double cell = 1.0 / static_cast<double>(fine.size());
+    for (int row = 0; row < fine.rows; ++row)
+        for (int col = 0; col < fine.cols; ++col) {
+            const std::size_t i = fine.index(row, col);
+            const double burnt = surface.burned[i] != 0 ? 1.0 : std::clamp<double>(surface.front_fraction[i], 0.0, 1.0);
+            const int r = row * in.grid.rows / fine.rows, c = col * in.grid.cols / fine.cols;
+            share.back() += burnt * cell;
+            share[in.cover.at(r, c)] += (1.0 - burnt) * cell;
+        }
+    return share;
 }
 
 /// Temperature of the air near the ground: what 150 m of it radiate at the wavelength where they are least transparent.
@@ -197,21 +238,10 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
                                   const radiometry::SunPosition& sun, RunReport& report) {
     SpectralScene out;
     auto& optics = out.optics;
-    radiometry::AtmosphereConditions conditions;
-    conditions.sensor_altitude_agl_m = sensor_agl_m;
-    conditions.ground_elevation_m = scenario.atmosphere.ground_elevation_m.value_or(in.mean_height_m);
-    conditions.visibility_km = scenario.atmosphere.visibility_km;
-    conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
-    conditions.sun_distance_AU = sun.distance_AU;
-    std::optional<radiometry::AtmosphereSet> set;
-    if (scenario.atmosphere.model != "none" || scenario.atmosphere.file)
-        set = load_atmosphere(scenario, conditions.ground_elevation_m);
-    if (scenario.flame.hot_gas && !scenario.flame.grey_absorption_per_m && !scenario.flame.off) {
-        optics.flame_tables =
-            std::make_shared<const radiometry::FlameOptics>(radiometry::load_flame_optics(data_folder() / "optical"));
-        optics.flame_gas = fire.gas;
-    }
-    out.grid = make_grid(responses, optics, set ? &*set : nullptr, conditions);
+    const SceneAir air = scene_air(scenario, in, sensor_agl_m, sun);
+    optics.flame_tables = flame_tables(scenario);
+    if (optics.flame_tables) optics.flame_gas = fire.gas;
+    out.grid = make_grid(responses, optics.flame_tables.get(), fire.gas, air);
     const int n = out.grid.size();
     optics.lambda_count = n;
     optics.lambda_um = out.grid.lambda_um;
@@ -231,22 +261,29 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
     names.push_back(scenario.surface.burned);
     optics.material_count = static_cast<int>(names.size());
     optics.burnt_material = optics.material_count - 1;
-    if (!set) {
+    if (!air.set) {
         out.atmosphere = radiometry::vacuum(n);
         return out;
     }
-    // The surroundings that scatter light into the view are the unburnt covers of the map, weighted by area.
-    std::vector<double> albedo(static_cast<std::size_t>(n), 0.0), share(names.size(), 0.0);
-    for (const auto material : in.cover.values) share[material] += 1.0 / static_cast<double>(in.cover.values.size());
+    std::vector<double> albedo(static_cast<std::size_t>(n), 0.0);
+    const auto share = shares_of_ground(in, fire.surface, names.size());
     for (std::size_t m = 0; m < names.size(); ++m)
         for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
-            albedo[i] += share[m] * optics.reflectance[m * static_cast<std::size_t>(n) + i];
+            albedo[i] += share[m] * static_cast<double>(optics.reflectance[m * static_cast<std::size_t>(n) + i]);
 
-    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, set->tables.front(), out.grid);
-    out.atmosphere = radiometry::make_view_atmosphere(*set, conditions, out.grid, albedo);
-    out.air_K = air_temperature_K(*set, conditions);
-    for (const auto& warning : radiometry::atmosphere_warnings(*set, conditions)) report.warn("atmosphere: " + warning);
+    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, air.set->tables.front(), out.grid);
+    out.atmosphere = radiometry::make_view_atmosphere(*air.set, air.conditions, out.grid, albedo);
+    out.air_K = air_temperature_K(*air.set, air.conditions);
+    for (const auto& warning : radiometry::atmosphere_warnings(*air.set, air.conditions))
+        report.warn("atmosphere: " + warning);
     return out;
+}
+
+radiometry::SpectralGrid transport_grid(const Scenario& scenario, const SceneInputs& in,
+                                        const std::vector<Spectrum>& responses, double sensor_agl_m,
+                                        const radiometry::SunPosition& sun) {
+    return make_grid(responses, flame_tables(scenario).get(), scenario.flame.gas,
+                     scene_air(scenario, in, sensor_agl_m, sun));
 }
 
 }  // namespace pyroscene::pipeline

@@ -56,4 +56,9 @@ SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const Scen
                                   const std::vector<Spectrum>& responses, double sensor_agl_m,
                                   const radiometry::SunPosition& sun, RunReport& report);
 
+/// The transport wavelengths alone, as make_spectral_scene() picks them.
+radiometry::SpectralGrid transport_grid(const scenario::Scenario& scenario, const SceneInputs& inputs,
+                                        const std::vector<Spectrum>& responses, double sensor_agl_m,
+                                        const radiometry::SunPosition& sun);
+
 }  // namespace pyroscene::pipeline

@@ -10,7 +10,8 @@
 #include "pipeline/ground_reflectance.h"
 #include "pipeline/plume_scene.h"
 #include "pipeline/run.h"
-#include "radiometry/transport_grid.h"
+#include "radiometry/spectral_grid.h"
+#include "radiometry/sun.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -47,11 +48,17 @@ void check_rasters(const Scenario& s, const SceneInputs& in, CheckResult& result
 /// Nominal cost of a ray and of a ray times wavelength, one core of an ordinary machine [s]; docs/physics-render.md measures them.
 constexpr double kRay_s = 1.0e-6, kRayWavelength_s = 1.0e-8, kPixelWavelength_s = 2.0e-8;
 
-/// As the render picks it, but without the air, which moves few nodes.
-radiometry::SpectralGrid transport_grid(const Scenario& s, const std::vector<Spectrum>& responses) {
-    if (!s.flame.hot_gas || s.flame.grey_absorption_per_m || s.flame.off) return radiometry::make_spectral_grid(responses);
-    static const auto tables = radiometry::load_flame_optics(data_folder() / "optical");
-    return radiometry::make_spectral_grid(responses, {&tables, s.flame.gas, {}});
+/// Wavelengths that the bands of a group are computed at: how many in all and per band, and without hot gas.
+std::string wavelengths_text(const radiometry::SpectralGrid& grid, const std::vector<Spectrum>& responses) {
+    int fewest = grid.size(), most = 0;
+    for (const auto& band : grid.bands) {
+        fewest = std::min(fewest, band.end - band.begin);
+        most = std::max(most, band.end - band.begin);
+    }
+    const auto spread = fewest == most ? fmt::format("{} a band", most) : fmt::format("{} to {} a band", fewest, most);
+    const int plain = radiometry::make_spectral_grid(responses).size();
+    return fmt::format("{} bands on {} transport wavelengths ({}{})", responses.size(), grid.size(), spread,
+                       plain == grid.size() ? "" : fmt::format("; {} without hot gas", plain));
 }
 
 std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const scenario::Acquisition& a, double& seconds) {
@@ -63,21 +70,24 @@ std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const 
         std::vector<Spectrum> responses;
         for (const int b : wanted_bands(a, sensor, id))
             responses.push_back(sensor.bands[static_cast<std::size_t>(b)].response);
-        const auto grid = transport_grid(s, responses);
+        const auto geometry = resolve_geometry(a, in, nullptr, sensor, group);
+        const double agl_m = std::max(1.0, geometry.path.at(0.0).position.h_m - in.mean_height_m);
+        const auto sun = radiometry::sun_position(s.start.unix_s + a.time_s, in.centre.lat_deg, in.centre.lon_deg);
+        const auto grid = transport_grid(s, in, responses, agl_m, sun);
         (void)ground_reflectance(s, in.cover_names, grid);  // for what is wrong with the user's spectra
         const bool point =
             sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;
         const double rays_per_pixel = point ? 1.0 : s.render.samples_per_axis * s.render.samples_per_axis;
-        const auto geometry = resolve_geometry(a, in, nullptr, sensor, group);
         const double pixels = static_cast<double>(geometry.samples) * geometry.lines, n = grid.size();
-        seconds += pixels * (rays_per_pixel * (kRay_s + kRayWavelength_s * n) + kPixelWavelength_s * n);
+        const double cost_s = pixels * (rays_per_pixel * (kRay_s + kRayWavelength_s * n) + kPixelWavelength_s * n);
+        seconds += cost_s;
         // Radiance, terms and truth in memory once, and once more while they are written.
         const double megabytes = 2.0 * pixels * 4.0 * (static_cast<double>(responses.size()) * 11.0 + 16.0) / 1e6;
         out += fmt::format(
-            "  {}: {} group {}, {} x {} pixels, {} bands on {} transport wavelengths, {:.0f} rays per pixel, "
-            "fire state of {:g} s, about {:.0f} MB\n",
-            a.id, sensor.id, id, geometry.samples, geometry.lines, responses.size(), grid.size(), rays_per_pixel,
-            in.frames[frame].time_s, megabytes);
+            "  {}: {} group {}, {} x {} pixels, {}, {:.0f} rays per pixel, fire state of {:g} s, about {:.1f} s of one core "
+            "and {:.0f} MB\n",
+            a.id, sensor.id, id, geometry.samples, geometry.lines, wavelengths_text(grid, responses), rays_per_pixel,
+            in.frames[frame].time_s, cost_s, megabytes);
     }
     return out;
 }

@@ -151,23 +151,30 @@ std::vector<Array> flame_scenes(const Resolved& r, const SpectralStructure& s) {
     return scenes;
 }
 
+/// The beam that comes back from a white mirror: its factors vary together, so it is their product that is linear between samples.
+Array reflected_beam(const AtmosphericTerms& air) {
+    Array beam = air.direct_normal;
+    for (std::size_t i = 0; i < beam.size(); ++i) beam[i] *= air.solar_correlation[i] * air.transmittance[i];
+    return beam;
+}
+
 void add_air(Training& training, const Resolved& r, const std::vector<Array>& scenes, const AtmosphericTerms& air) {
     const auto on_grid = [&](const Array& values) { return at_wavelengths(air.wavelength_um, values, r.lambda_um); };
     const Array tau = on_grid(air.transmittance);
     for (const auto& scene : scenes) training.add(times(scene, tau), 1.0);
     // Ambient ground of emissivity 0.9 by night and by day.
     const Array thermal = on_grid(air.path_thermal), solar = on_grid(air.path_solar), sky = on_grid(air.thermal_sky),
-                direct = on_grid(air.direct_normal), diffuse = on_grid(air.diffuse),
-                correlation = on_grid(air.solar_correlation);
+                beam = on_grid(reflected_beam(air)), diffuse = on_grid(air.diffuse);
     Array night, day, reflected;
     for (std::size_t i = 0; i < tau.size(); ++i) {
         night.push_back(thermal[i] + tau[i] * (0.9 * planck_radiance(r.lambda_um[i], 300.0) + 0.1 / kPi * sky[i]));
-        reflected.push_back(0.1 / kPi * tau[i] * (0.7 * direct[i] * correlation[i] + diffuse[i]));
+        reflected.push_back(0.1 / kPi * (0.7 * beam[i] + tau[i] * diffuse[i]));
         day.push_back(night[i] + reflected[i] + solar[i]);
     }
     training.add(night, 1.0);
     training.add(day, 1.0);
     training.add(reflected, 1.0);
+    training.add(solar, 1.0);
 }
 
 void append_nodes(SpectralGrid& grid, const Spectrum& response, const SpectralStructure& s) {
@@ -200,10 +207,34 @@ void append_nodes(SpectralGrid& grid, const Spectrum& response, const SpectralSt
     grid.bands.push_back({begin, grid.size()});
 }
 
-/// Gas or lines anywhere in the band.
+/// Largest distance of a quantity of the air from a straight line over the band.
+double bend(const Array& wavelength_um, const Array& values, double lower_um, double upper_um) {
+    const Spectrum polyline{Quantity::Dimensionless, wavelength_um, values};
+    const double first = polyline.at(lower_um), last = polyline.at(upper_um);
+    double most = 0.0;
+    for (auto x = std::upper_bound(wavelength_um.begin(), wavelength_um.end(), lower_um);
+         x != wavelength_um.end() && *x < upper_um; ++x) {
+        const double f = (*x - lower_um) / (upper_um - lower_um);
+        most = std::max(most,
+                        std::abs(values[static_cast<std::size_t>(x - wavelength_um.begin())] - std::lerp(first, last, f)));
+    }
+    return most;
+}
+
+/// Absorption bands of the air, or lines of the sun's own spectrum, within the band.
+bool has_structure(const AtmosphericTerms& air, double lower_um, double upper_um) {
+    constexpr double kTransmittance = 2e-3, kSun = 0.05;
+    const Spectrum sun{Quantity::Irradiance, air.wavelength_um, air.direct_normal};
+    return bend(air.wavelength_um, air.transmittance, lower_um, upper_um) > kTransmittance ||
+           bend(air.wavelength_um, air.direct_normal, lower_um, upper_um) > kSun * mean_over(sun, lower_um, upper_um);
+}
+
+/// Gas or lines anywhere in the band, of the flame or of the air.
 bool has_structure(const Spectrum& response, const SpectralStructure& s) {
     if (s.flame == nullptr) return false;
     const double lower = response.lambda_um.front(), upper = response.lambda_um.back();
+    if (std::any_of(s.air.begin(), s.air.end(), [&](const auto& air) { return has_structure(air, lower, upper); }))
+        return true;
     constexpr int kProbes = 200;
     for (int i = 0; i <= kProbes; ++i)
         if (absorbs(s, lower + (upper - lower) * i / kProbes)) return true;

@@ -16,10 +16,10 @@ struct SpectralStructure {
     std::vector<AtmosphericTerms> air;  ///< a few lines of sight of the scene; empty = vacuum
 };
 
-/// Grid for bands in which flame gas absorbs or alkali lines lie: nodes are single wavelengths picked, with weights >= 0, so
+/// Grid for bands in which gas of the flame or of the air absorbs, alkali lines or strong lines of the sun lie: nodes are single wavelengths picked, with weights >= 0, so
 /// that the band means of a training set of scenes come out right: blackbodies of 300 to 2000 K (5e-5; dark bands 7e-4),
 /// flames of three temperatures and four lengths before black and hot ground, layered and lean flames, ambient ground by day and
-/// night, each through vacuum or through every line of sight (7e-4). Optimal spectral sampling (Moncet et al. 2008, J. Atmos. Sci. 65:3917) with
+/// night, scattered sun, each through vacuum or through every line of sight (7e-4). Optimal spectral sampling (Moncet et al. 2008, J. Atmos. Sci. 65:3917) with
 /// Lawson and Hanson's non-negative least squares. All quantities are taken at the nodes themselves, so that lines, soot and
 /// air keep their correlation. Other bands are cut as by make_spectral_grid(responses).
 /// Throws as that one.
