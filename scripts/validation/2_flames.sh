@@ -12,6 +12,24 @@ flame --csv "$tables/bed_in.csv" --temperature_K 1700 --wavelength_um 1.2 -o "$t
 pyroscene plot "$tables/bed.csv" --x path_m --y radiance_W_m2_sr_um --points radiance_W_m2_sr_um --x-label "length [m]" --y-label "radiance at 1.2 um [W m-2 sr-1 um-1]" -o "$images/fig_6_2.png"
 number bed_2438_over_305 "$(awk -F, '$1 == "0.305" { a = $3 } $1 == "2.438" { print $3 / a }' "$tables/bed.csv")"
 
+# Figures 6.1 (b) and 6.2 as the field spectroradiometer sees them, of flames of 1100 K: scenarios/field_flame.
+beds=(--acquisition bed_0305mm --acquisition bed_2438mm)
+((reduced)) && beds+=(--acquisition bed_1219mm) || beds=()
+pyroscene run scenarios/field_flame/bed_length.yaml "${beds[@]}" -o "$out/bed_length"
+spectra=("$out"/bed_length/bed_*mm/spectrum.csv)
+bed_m='FNR == 1 { n = split(FILENAME, part, "/"); bed = substr(part[n - 1], 5, 4) / 1000 }'
+awk -F, "$bed_m"' NR == 1 { print "bed_m,wavelength_um,radiance" }
+    FNR > 1 && $2 > 0.745 && $2 < 0.8 && (bed == 0.305 || bed == 1.219 || bed == 2.438) { printf "%.3f,%s,%s\n", bed, $2, $4 }' "${spectra[@]}" >"$tables/fig_6_1b.csv"
+pyroscene plot "$tables/fig_6_1b.csv" --x wavelength_um --y radiance --by bed_m --x-label "wavelength [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_6_1b.png"
+soot_per_m=$(result flame-emissivity --wavelength_um 1.199 --temperature_K 1100 --path_m 1 emissivity | awk '{ print -log(1 - $1) }')
+awk -F, "$bed_m"' NR == 1 { print "length_m,instrument,slab" }
+    FNR > 1 && $2 > 1.1985 && $2 < 1.1995 {
+        black = 1.191042972e8 / ($2 ^ 5 * (exp(14387.7688 / ($2 * 1100)) - 1))
+        printf "%.3f,%s,%.5g\n", bed, $4, black * (1 - exp(-k * bed))
+    }' k="$soot_per_m" "${spectra[@]}" >"$tables/fig_6_2_instrument.csv"
+pyroscene plot "$tables/fig_6_2_instrument.csv" --x length_m --y instrument,slab --points instrument --x-label "length of the fuel bed [m]" --y-label "radiance at 1.2 um [W m-2 sr-1 um-1]" -o "$images/fig_6_2_instrument.png"
+number instrument_2438_over_305 "$(awk -F, '$1 == "0.305" { a = $2 } $1 == "2.438" { print $2 / a }' "$tables/fig_6_2_instrument.csv")"
+
 # Figure 6.3: 20 cm of flame from 1.5 to 15 um; water at 2.7 and 6.5 um, carbon dioxide at 4.3 um stand out of the soot.
 { echo wavelength_um; awk 'BEGIN { for (w = 1.5; w <= 15; w += 0.02) printf "%.4f\n", w }'; } >"$tables/ir_in.csv"
 flame --csv "$tables/ir_in.csv" --temperature_K 1153 --path_m 0.2 -o "$tables/ir.csv"
