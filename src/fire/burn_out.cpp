@@ -119,14 +119,14 @@ double latent_heat_J_kg(double moisture) noexcept {
     return kVaporisation_J_kg * (moisture + kWaterOfCombustion) / (1.0 + moisture);
 }
 
-Raster<float> mean_heat_flux_W_m2(const BurningGround& ground, double t0_s, double t1_s) {
+void fill_mean_heat_flux(const BurningGround& ground, double t0_s, double t1_s, int first_row, int last_row,
+                         Raster<float>& flux_W_m2) {
     check_grids(ground);
     if (!(t1_s > t0_s))
         throw input_error("heat flux", fmt::format("from {} s to {} s: expected a time that passes", t0_s, t1_s));
     constexpr double kBurntOut = 40.0;  ///< e-folding times after which less than a rounding error is left
     const MapGrid& grid = ground.arrival_time_s.grid;
-    Raster<float> flux(grid, "heat_flux", "W m-2", 0.0F);
-    for (int row = 0; row < grid.rows; ++row)
+    for (int row = first_row; row < last_row; ++row)
         for (int col = 0; col < grid.cols; ++col) {
             const std::size_t cell = grid.index(row, col);
             const double heat = ground.heat_J_m2.values[cell];
@@ -138,22 +138,33 @@ Raster<float> mean_heat_flux_W_m2(const BurningGround& ground, double t0_s, doub
             if (span.first_s >= t1_s || span.last_s + kBurntOut * slowest < t0_s) continue;
             const double burnt = remaining_in_cell(ground.arrival_time_s, row, col, burn, t0_s) -
                                  remaining_in_cell(ground.arrival_time_s, row, col, burn, t1_s);
-            flux.values[cell] = static_cast<float>(heat * burnt / (t1_s - t0_s));
+            flux_W_m2.values[cell] = static_cast<float>(heat * burnt / (t1_s - t0_s));
         }
-    return flux;
 }
 
-Raster<float> remaining_share(const BurningGround& ground, double time_s) {
+void fill_remaining_share(const BurningGround& ground, double time_s, int first_row, int last_row, Raster<float>& left) {
     check_grids(ground);
     const MapGrid& grid = ground.arrival_time_s.grid;
-    Raster<float> left(grid, "remaining_share", "1", 1.0F);
-    for (int row = 0; row < grid.rows; ++row)
+    for (int row = first_row; row < last_row; ++row)
         for (int col = 0; col < grid.cols; ++col) {
             const std::size_t cell = grid.index(row, col);
             if (!std::isfinite(ground.arrival_time_s.values[cell])) continue;
             left.values[cell] =
                 static_cast<float>(remaining_in_cell(ground.arrival_time_s, row, col, burn_out_of(ground, cell), time_s));
         }
+}
+
+Raster<float> mean_heat_flux_W_m2(const BurningGround& ground, double t0_s, double t1_s) {
+    const MapGrid& grid = ground.arrival_time_s.grid;
+    Raster<float> flux(grid, "heat_flux", "W m-2", 0.0F);
+    fill_mean_heat_flux(ground, t0_s, t1_s, 0, grid.rows, flux);
+    return flux;
+}
+
+Raster<float> remaining_share(const BurningGround& ground, double time_s) {
+    const MapGrid& grid = ground.arrival_time_s.grid;
+    Raster<float> left(grid, "remaining_share", "1", 1.0F);
+    fill_remaining_share(ground, time_s, 0, grid.rows, left);
     return left;
 }
 

@@ -55,4 +55,9 @@ Raster<float> mean_heat_flux_W_m2(const BurningGround& ground, double t0_s, doub
 /// Share of the load that is left at a time, mean over each cell, 1 where no fire came.
 Raster<float> remaining_share(const BurningGround& ground, double time_s);
 
+/// The rows [first, last) of both, for callers that spread them over threads. `flux_W_m2` (0) and `left` (1) are on the grid of the ground.
+void fill_mean_heat_flux(const BurningGround& ground, double t0_s, double t1_s, int first_row, int last_row,
+                         Raster<float>& flux_W_m2);
+void fill_remaining_share(const BurningGround& ground, double time_s, int first_row, int last_row, Raster<float>& left);
+
 }  // namespace pyroscene::fire

@@ -18,7 +18,7 @@ struct ModelledFire {
     double mean_over_s = 6.0;  ///< the flux of a frame is the mean over this time before it
 };
 
-/// Heat flux of a frame.
+/// Heat flux of a frame, on all cores and the same for any number of them.
 Raster<float> heat_flux_W_m2(const ModelledFire& fire, double time_s);
 /// Fuel that is left at a time.
 Raster<float> fuel_left_kg_m2(const ModelledFire& fire, double time_s);

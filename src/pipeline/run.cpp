@@ -36,7 +36,10 @@ struct Session {
     SceneInputs inputs;
 
     Session(const Scenario& s, const RunOptions& o, RunReport& r)
-        : scenario(s), options(o), report(r), fingerprints(s), inputs(load_scene_inputs(s)) {}
+        : scenario(s), options(o), report(r), fingerprints(s), inputs(load_scene_inputs(s, [this](double fraction) {
+              stop_if_cancelled();
+              progress("spread", fraction);
+          })) {}
 
     void stop_if_cancelled() const {
         if (options.cancelled != nullptr && options.cancelled->load()) throw Cancelled();

@@ -85,7 +85,7 @@ std::vector<FrameSource> heat_flux_frames(const RasterSource& source) {
     return frames;
 }
 
-SceneInputs load_scene_inputs(const Scenario& scenario) {
+SceneInputs load_scene_inputs(const Scenario& scenario, const std::function<void(double)>& on_progress) {
     SceneInputs in;
     const auto& terrain = scenario.inputs.terrain;
     in.grid = gis::make_map_grid(terrain.files.front(), scenario.map_crs, scenario.map_cell_m);
@@ -105,7 +105,9 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     }
     in.mean_height_m = sum / static_cast<double>(count);
     if (scenario.inputs.spread) {
-        in.modelled = spread_own_fire(scenario, in.terrain_m);
+        in.modelled = spread_own_fire(scenario, in.terrain_m, [&](double time_s) {
+            if (on_progress) on_progress(time_s / scenario.inputs.spread->frames_s.back());
+        });
         for (const double time_s : in.modelled->frames_s) in.frames.push_back({{}, 0, time_s});
         in.arrival_time_s = in.modelled->ground.arrival_time_s;
     } else {

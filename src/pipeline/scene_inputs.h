@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +34,9 @@ struct SceneInputs {
     double lowest_m = 0.0, highest_m = 0.0, mean_height_m = 0.0;
 };
 
-/// Reads the static inputs. Throws an input error for the first thing wrong.
-SceneInputs load_scene_inputs(const scenario::Scenario& scenario);
+/// Reads the static inputs and spreads the fire where the scenario asks for it. Throws an input error for the first thing wrong.
+/// \param on_progress  called with the fraction of the fire's time that is spread; may throw to cancel
+SceneInputs load_scene_inputs(const scenario::Scenario& scenario, const std::function<void(double)>& on_progress = {});
 
 /// The frames of the heat-flux input, ascending in time. Throws an input error: no time_s, times not ascending, too few bands.
 std::vector<FrameSource> heat_flux_frames(const scenario::RasterSource& source);
