@@ -52,9 +52,20 @@ std::string text(const scenario::QuantitySource& q) {
     return fmt::format("{}|{}|", q.value, q.scale) + (q.raster ? text(*q.raster) : "-;");
 }
 
+std::string text(const scenario::FuelSource& s) {
+    return text(s.raster) + fmt::format("{}|{};", s.table, fmt::join(s.nonburnable, ","));
+}
+
+std::string text(const scenario::ArrivalModelSource& s) {
+    std::string out = text(s.arrival.raster) + fmt::format("{}|{}|{};", s.model, s.arrival.unit, s.offset_s) + text(s.fuel);
+    for (const auto* raster : {&s.fireline_intensity, &s.flame_length, &s.spread_rate})
+        out += *raster ? text((*raster)->raster) + (*raster)->unit : "-;";
+    return out +
+           fmt::format("{}|{}|{}|{};", s.fuel_moisture_pct, fmt::join(s.frames_s, ","), s.mean_over_s, s.coarse_burn_time_s);
+}
+
 std::string spread_text(const scenario::SpreadSource& s) {
-    std::string out =
-        text(s.fuel) + fmt::format("{}|{};", s.table, fmt::join(s.nonburnable, ",")) + text(s.ignition) + text(s.barriers);
+    std::string out = text(s.fuel) + text(s.ignition) + text(s.barriers);
     for (const auto& m : s.moisture_pct) out += fmt::format("{}|", m.value_or(-1.0));
     out += s.moisture_raster ? text(*s.moisture_raster) : "-;";
     out += text(s.canopy_cover) + text(s.canopy_height_m);
@@ -80,6 +91,7 @@ std::string fire_text(const Scenario& s) {
     out += flames_text(s) + text(s.inputs.terrain) + text(s.inputs.heat_flux);
     if (s.inputs.arrival) out += text(*s.inputs.arrival);
     if (s.inputs.spread) out += spread_text(*s.inputs.spread);
+    if (s.inputs.arrival_model) out += text(*s.inputs.arrival_model);
     if (s.inputs.wind) {
         out += fmt::format("{}|{};", s.inputs.wind->speed_m_s, s.inputs.wind->from_deg);
         if (s.inputs.wind->raster) out += text(*s.inputs.wind->raster);

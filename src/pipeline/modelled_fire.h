@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fire/burn_out.h"
@@ -14,6 +15,7 @@ struct ModelledFire {
     Raster<float> fuel_load_kg_m2;  ///< before the fire; 0 where nothing burns
     std::optional<Raster<float>> spread_rate_m_s, fireline_intensity_W_m, flame_length_m;  ///< as the front passes
     std::size_t cells_with_limited_wind = 0;                                               ///< see spread::FireSpread
+    std::vector<std::string> warnings;                                                     ///< about what it was read from
     std::vector<double> frames_s;                                                          ///< ascending
     double mean_over_s = 6.0;  ///< the flux of a frame is the mean over this time before it
 };

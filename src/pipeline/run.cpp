@@ -132,6 +132,7 @@ void prepare_phase(Session& s) {
     warn_of_sparse_frames(s);
     warn_of_flat_flames(s);
     if (s.inputs.modelled) {
+        for (const auto& warning : s.inputs.modelled->warnings) s.report.warn(warning);
         record_spread(s.report, *s.inputs.modelled);
         const auto print = s.fingerprints.state(s.inputs.frames.back().time_s);
         if (!is_current(s.options.output / "spread" / "arrival.tif", print, s.options))
@@ -284,9 +285,10 @@ void in_session(const Scenario& scenario, const RunOptions& options, RunReport& 
 }  // namespace
 
 void spread(const Scenario& scenario, const RunOptions& options, RunReport& report) {
-    if (!scenario.inputs.spread)
-        throw input_error(scenario.path.string(),
-                          "has no inputs.spread; 'pyroscene spread' follows the fire that it describes");
+    if (!scenario.inputs.spread && !scenario.inputs.arrival_model)
+        throw input_error(
+            scenario.path.string(),
+            "has no inputs.spread and no inputs.arrival_model; 'pyroscene spread' writes the fire that they describe");
     in_session(scenario, options, report, [](Session& s) {
         const PhaseTimer timer(s.report, "write");
         const auto& fire = *s.inputs.modelled;

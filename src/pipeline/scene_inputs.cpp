@@ -10,6 +10,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "pipeline/arrival_model.h"
 #include "pipeline/front_inputs.h"
 #include "pipeline/spread_model.h"
 #include "radiometry/surfaces.h"
@@ -104,10 +105,12 @@ SceneInputs load_scene_inputs(const Scenario& scenario, const std::function<void
         ++count;
     }
     in.mean_height_m = sum / static_cast<double>(count);
-    if (scenario.inputs.spread) {
+    if (scenario.inputs.arrival_model) in.modelled = read_arrival_model(scenario, in.grid);
+    if (scenario.inputs.spread)
         in.modelled = spread_own_fire(scenario, in.terrain_m, [&](double time_s) {
             if (on_progress) on_progress(time_s / scenario.inputs.spread->frames_s.back());
         });
+    if (in.modelled) {
         for (const double time_s : in.modelled->frames_s) in.frames.push_back({{}, 0, time_s});
         in.arrival_time_s = in.modelled->ground.arrival_time_s;
     } else {
@@ -153,7 +156,7 @@ std::size_t frame_at(const std::vector<FrameSource>& frames, double time_s, cons
 std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     const auto& in = scenario.inputs;
     std::vector<const RasterSource*> sources{&in.terrain};
-    if (!in.spread) sources.push_back(&in.heat_flux);
+    if (!in.spread && !in.arrival_model) sources.push_back(&in.heat_flux);
     if (in.fuel_load) sources.push_back(&*in.fuel_load);
     if (in.arrival) sources.push_back(&*in.arrival);
     for (const auto* source : {&in.fireline_intensity, &in.flame_length, &in.spread_rate})
@@ -163,6 +166,8 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     std::set<std::filesystem::path> unique;
     if (in.spread)
         for (const auto& file : spread_files(*in.spread)) unique.insert(file);
+    if (in.arrival_model)
+        for (const auto& file : arrival_model_files(*in.arrival_model)) unique.insert(file);
     if (in.plume) unique.insert(in.plume->files.begin(), in.plume->files.end());
     for (const auto* source : sources) unique.insert(source->files.begin(), source->files.end());
     return {unique.begin(), unique.end()};

@@ -12,6 +12,7 @@
 #include "fire/gradients.h"
 #include "gis/raster_input.h"
 #include "gis/vector_input.h"
+#include "pipeline/fuel_cells.h"
 #include "pipeline/spread_weather.h"
 #include "spread/landscape.h"
 
@@ -24,45 +25,7 @@ using scenario::ShapesSource;
 using scenario::SpreadSource;
 using spread::Field;
 
-constexpr int kNoCode = -32768;
 int first_band(const scenario::RasterSource& source) { return source.bands.empty() ? 1 : source.bands.front(); }
-
-spread::FuelModels fuel_models(const SpreadSource& source) {
-    constexpr int kLastAndersonModel = 13;
-    spread::FuelModels models;
-    const bool shipped = source.table == "fbfm13" || source.table == "fbfm40" || source.table == "fbfm53";
-    if (!shipped) models = spread::read_fuel_models(source.table);
-    for (const auto& [number, model] : spread::standard_fuel_models())
-        if (source.table == "fbfm53" || (shipped && (number <= kLastAndersonModel) == (source.table == "fbfm13")))
-            models[number] = model;
-    if (source.custom)
-        for (const auto& [number, model] : spread::read_fuel_models(*source.custom)) models[number] = model;
-    return models;
-}
-
-/// Codes of the fuel raster as numbers of models, 0 where nothing burns.
-Raster<std::uint16_t> fuel_of_cells(const SpreadSource& source, const spread::FuelModels& models, const MapGrid& grid) {
-    std::set<int> bare(source.nonburnable.begin(), source.nonburnable.end());
-    if (source.table.starts_with("fbfm"))
-        bare.insert(spread::nonburnable_codes().begin(), spread::nonburnable_codes().end());
-    const auto codes = gis::read_classes(source.fuel.files.front(), first_band(source.fuel), grid, kNoCode);
-    Raster<std::uint16_t> fuel(grid, "fuel", "1");
-    std::set<int> unknown;
-    for (std::size_t i = 0; i < codes.values.size(); ++i) {
-        const int code = codes.values[i];
-        if (code == kNoCode || bare.contains(code)) continue;
-        if (models.contains(code))
-            fuel.values[i] = static_cast<std::uint16_t>(code);
-        else
-            unknown.insert(code);
-    }
-    if (!unknown.empty())
-        throw input_error(source.fuel.files.front().string(),
-                          fmt::format("band {} holds fuel codes that table '{}' does not have: {}; give their models in "
-                                      "inputs.spread.fuel.custom or list them in inputs.spread.fuel.nonburnable",
-                                      first_band(source.fuel), source.table, fmt::join(unknown, ", ")));
-    return fuel;
-}
 
 gis::Shapes shapes_of(const Scenario& scenario, const ShapesSource& source, const char* key, const MapGrid& grid) {
     if (source.file) return gis::read_shapes({*source.file, source.layer, source.crs}, grid);
@@ -123,8 +86,8 @@ spread::Landscape landscape_of(const Scenario& scenario, const Raster<float>& te
     const auto& source = *scenario.inputs.spread;
     const MapGrid& grid = terrain_m.grid;
     spread::Landscape land;
-    land.models = fuel_models(source);
-    land.fuel = fuel_of_cells(source, land.models, grid);
+    land.models = fuel_models(source.fuel);
+    land.fuel = fuel_of_cells(source.fuel, land.models, grid);
     for (const auto& barrier : source.barriers) {
         const auto mask = gis::cells_of(shapes_of(scenario, barrier, "barriers", grid), grid, true);
         for (std::size_t i = 0; i < mask.values.size(); ++i)
@@ -137,36 +100,6 @@ spread::Landscape landscape_of(const Scenario& scenario, const Raster<float>& te
     land.canopy_height_m = static_field(source.canopy_height_m, "canopy height", "m", grid);
     land.crown_ratio = {source.crown_ratio};
     return land;
-}
-
-/// What burns and how much heat it gives: the load of the fuel model with the moisture of its 1-h fuel when the fire comes.
-void add_fuel(ModelledFire& fire, const spread::Landscape& land, const std::vector<spread::Weather>& weather,
-              double coarse_burn_time_s) {
-    const MapGrid& grid = land.fuel.grid;
-    std::vector<double> times_s;
-    for (const auto& w : weather) times_s.push_back(w.from_s);
-    std::map<int, std::uint8_t> kinds;
-    fire.fuel_load_kg_m2 = Raster<float>(grid, "fuel_load", "kg m-2");
-    fire.ground.heat_J_m2 = Raster<float>(grid, "heat", "J m-2");
-    fire.ground.kind = Raster<std::uint8_t>(grid, "burn_out", "1");
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-        const int number = land.fuel.values[i];
-        if (number == 0) continue;
-        const auto& model = land.models.at(number);
-        fire.fuel_load_kg_m2.values[i] = static_cast<float>(model.total_load_kg_m2());
-        const double arrival_s = fire.ground.arrival_time_s.values[i];
-        if (std::isnan(arrival_s)) continue;
-        const double moisture = weather[holding(times_s, arrival_s)].moisture[spread::kOneHour].at(i);
-        fire.ground.heat_J_m2.values[i] = static_cast<float>(model.total_load_kg_m2() * fire::sensible_heat_J_kg(moisture));
-        auto known = kinds.find(number);
-        if (known == kinds.end()) {
-            if (kinds.size() > std::numeric_limits<std::uint8_t>::max())
-                throw input_error("inputs.spread.fuel", "more than 256 fuel models burn; expected fewer");
-            known = kinds.emplace(number, static_cast<std::uint8_t>(kinds.size())).first;
-            fire.ground.burn_out.push_back(spread::burn_out_of(model, coarse_burn_time_s));
-        }
-        fire.ground.kind.values[i] = known->second;
-    }
 }
 
 }  // namespace
@@ -192,20 +125,22 @@ ModelledFire spread_own_fire(const Scenario& scenario, const Raster<float>& terr
     fire.cells_with_limited_wind = spread.cells_with_limited_wind;
     fire.frames_s = source.frames_s;
     fire.mean_over_s = source.mean_over_s;
-    add_fuel(fire, land, weather, source.coarse_burn_time_s);
+    std::vector<double> times_s;
+    for (const auto& w : weather) times_s.push_back(w.from_s);
+    add_fuel(fire, land.fuel, land.models, source.coarse_burn_time_s, [&](std::size_t cell, double time_s) {
+        return weather[holding(times_s, time_s)].moisture[spread::kOneHour].at(cell);
+    });
     return fire;
 }
 
 std::vector<std::filesystem::path> spread_files(const SpreadSource& source) {
-    std::vector<std::filesystem::path> files = source.fuel.files;
+    auto files = files_of(source.fuel);
     const auto add = [&](const std::optional<std::filesystem::path>& file) {
         if (file) files.push_back(*file);
     };
     const auto add_raster = [&](const QuantitySource& quantity) {
         if (quantity.raster) files.insert(files.end(), quantity.raster->files.begin(), quantity.raster->files.end());
     };
-    if (!source.table.starts_with("fbfm")) files.emplace_back(source.table);
-    add(source.custom);
     add(source.moisture_table);
     for (const auto& shapes : source.ignition) add(shapes.file);
     for (const auto& shapes : source.barriers) add(shapes.file);

@@ -83,9 +83,11 @@ void read_flame_relations(const config::Node& node, fire::FireParameters& p) {
 void check_flame_inputs(const config::Node& root, const Scenario& s) {
     const auto& flames = s.fire.flames;
     const auto inputs = root.child("inputs"), fire = root.child("fire");
-    const bool own_fire = s.inputs.spread.has_value();  // which knows all of it
+    const auto& modelled = s.inputs.arrival_model;
+    const bool own_fire = s.inputs.spread.has_value() || modelled;  // knows fuel and spread rate
+    const bool own_length = s.inputs.spread || (modelled && modelled->flame_length);
     const bool has_spread = own_fire || s.inputs.arrival.has_value() || s.inputs.spread_rate.has_value();
-    if (flames.height.method == "raster" && !s.inputs.flame_length && !own_fire)
+    if (flames.height.method == "raster" && !s.inputs.flame_length && !own_length)
         inputs.report("key 'flame_length' is missing; 'raster' in fire.flame_height reads it");
     if (s.inputs.flame_length && flames.height.method != "raster")
         inputs.child("flame_length").report("is not used; 'raster' in fire.flame_height.method reads it");

@@ -170,10 +170,18 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     const config::Node terrain = node.required_child("terrain"), spread = node.child("spread");
     inputs.terrain = read_source(terrain, folder, kStatic);
     terrain.finish();
-    if (spread.present()) {
-        inputs.spread = read_spread(spread, folder);
+    const config::Node modelled = node.child("arrival_model");
+    if (spread.present() && modelled.present()) modelled.report("'spread' makes a fire of its own; give one of the two");
+    const auto comes_from = [&](const char* source) {
         for (const char* key : {"heat_flux", "fuel_load", "arrival", "fireline_intensity", "flame_length", "spread_rate"})
-            if (node.has(key)) node.child(key).report("comes from 'spread'; give one of the two");
+            if (node.has(key)) node.child(key).report(fmt::format("comes from '{}'; give one of the two", source));
+    };
+    if (modelled.present()) {
+        inputs.arrival_model = read_arrival_model(modelled, folder);
+        comes_from("arrival_model");
+    } else if (spread.present()) {
+        inputs.spread = read_spread(spread, folder);
+        comes_from("spread");
     } else {
         const config::Node heat_flux = node.required_child("heat_flux");
         inputs.heat_flux = read_source(heat_flux, folder, kScalarSeries);

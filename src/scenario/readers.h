@@ -26,6 +26,15 @@ fire::FireParameters read_fire(const config::Node& node);
 RasterSource read_raster(const config::Node& node, const std::filesystem::path& folder);
 /// Rasters that may change with time, so many bands for each moment; the caller calls finish().
 RasterSource read_raster_series(const config::Node& node, const std::filesystem::path& folder, std::size_t bands_per_frame);
+ArrivalModelSource read_arrival_model(const config::Node& node, const std::filesystem::path& folder);
+/// The key `fuel` of a fire that the program computes.
+FuelSource read_fuel(const config::Node& node, const std::filesystem::path& folder);
+/// Times of the frames of such a fire: frames_s, or duration_s and frame_step_s; mean_over_s.
+struct FireFrames {
+    std::vector<double> times_s;
+    double mean_over_s = 6.0;
+};
+FireFrames read_fire_frames(const config::Node& node);
 SpreadSource read_spread(const config::Node& node, const std::filesystem::path& folder);
 /// Flame height, tilt, fireline intensity and front depth: the part of `fire` that read_flames.cpp reads.
 void read_flame_relations(const config::Node& fire, fire::FireParameters& parameters);

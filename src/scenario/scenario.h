@@ -12,6 +12,7 @@
 #include "fire/flame_field.h"
 #include "fire/plume.h"
 #include "fire/state.h"
+#include "scenario/arrival_model_source.h"
 #include "scenario/raster_source.h"
 #include "scenario/spread_source.h"
 
@@ -39,8 +40,9 @@ struct PlumeSource {
 };
 
 struct Inputs {
-    RasterSource terrain, heat_flux;  ///< no heat flux with `spread`
+    RasterSource terrain, heat_flux;  ///< no heat flux with `spread` or `arrival_model`
     std::optional<SpreadSource> spread;
+    std::optional<ArrivalModelSource> arrival_model;
     std::optional<RasterSource> fuel_load, arrival;
     std::optional<RasterSource> fireline_intensity, flame_length, spread_rate;  ///< as the front passes; static
     std::optional<WindSource> wind;                                             ///< absent = calm

@@ -30,7 +30,7 @@ constexpr const char* kSchema = R"json({
       "type": "object",
       "additionalProperties": false,
       "required": ["terrain"],
-      "oneOf": [{"required": ["heat_flux"]}, {"required": ["spread"]}],
+      "oneOf": [{"required": ["heat_flux"]}, {"required": ["spread"]}, {"required": ["arrival_model"]}],
       "properties": {
         "terrain": {"$ref": "#/$defs/static", "description": "elevation, m"},
         "heat_flux": {"$ref": "#/$defs/series", "description": "sensible heat flux of the surface fire, W m-2"},
@@ -58,6 +58,45 @@ constexpr const char* kSchema = R"json({
         "fireline_intensity": {"$ref": "#/$defs/static", "description": "as the front passes, W m-1"},
         "flame_length": {"$ref": "#/$defs/static", "description": "along the leaning axis, m; for flame_height.method: raster"},
         "spread_rate": {"$ref": "#/$defs/static", "description": "of the front, m s-1; default: from arrival"},
+        "arrival_model": {
+          "description": "a fire known by the arrival times that FARSITE, FlamMap, ELMFIRE or another program computed",
+          "type": "object",
+          "additionalProperties": false,
+          "required": ["model", "arrival", "fuel"],
+          "properties": {
+            "model": {"enum": ["farsite", "flammap", "elmfire", "pyretechnics", "forefire", "other"]},
+            "arrival": {"type": "object", "additionalProperties": false, "required": ["file"],
+              "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["s", "min", "h"]}}},
+            "fireline_intensity": {"type": "object", "additionalProperties": false, "required": ["file"],
+              "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["W/m", "kW/m", "Btu/ft/s"]}}},
+            "flame_length": {"type": "object", "additionalProperties": false, "required": ["file"],
+              "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["m", "ft"]}}},
+            "spread_rate": {"type": "object", "additionalProperties": false, "required": ["file"],
+              "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["m/s", "m/min", "ft/min", "chain/h"]}}},
+            "offset_s": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "start of the model's clock after 'start'; without it: 0"},
+            "fuel": {
+              "description": "fuel model of each cell",
+              "type": "object",
+              "additionalProperties": false,
+              "required": ["file", "table"],
+              "properties": {
+                "file": {"type": "string"},
+                "band": {"$ref": "#/$defs/band"},
+                "table": {"type": "string", "description": "which codes: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
+                  "examples": ["fbfm13", "fbfm40", "fbfm53"]},
+                "custom": {"type": "string", "description": "CSV file of more fuel models"},
+                "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"}
+              }
+            },
+            "fuel_moisture_pct": {"type": "number", "minimum": 0, "maximum": 300, "description": "without it: 8"},
+            "duration_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7},
+            "frame_step_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "description": "without it: 300"},
+            "frames_s": {"type": "array", "minItems": 1, "items": {"type": "number"}, "description": "instead of both"},
+            "mean_over_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7,
+              "description": "default: 6, or the shortest time between frames when that is less"},
+            "coarse_burn_time_s": {"type": "number", "minimum": 1, "maximum": 1e5, "description": "without it: 300"}
+          }
+        },
         "spread": {
           "description": "a fire that the program spreads itself, instead of heat_flux, fuel_load, arrival and what a front shows",
           "type": "object",

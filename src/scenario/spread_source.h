@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/raster_source.h"
+#include "scenario/fuel_source.h"
 #include "spread/landscape.h"
 
 namespace pyroscene::scenario {
@@ -30,10 +30,7 @@ struct ShapesSource {
 
 /// A fire that the program's own model spreads (inputs.spread).
 struct SpreadSource {
-    RasterSource fuel;                            ///< codes
-    std::string table;                            ///< fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models
-    std::optional<std::filesystem::path> custom;  ///< more fuel models, which replace those with the same number
-    std::vector<int> nonburnable;                 ///< further codes without fire
+    FuelSource fuel;
     std::vector<ShapesSource> ignition, barriers;
     std::array<std::optional<double>, spread::kFuelClasses> moisture_pct;  ///< everywhere and always; goes first
     std::optional<RasterSource> moisture_raster;                           ///< five bands for each moment, per cent

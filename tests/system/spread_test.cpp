@@ -119,6 +119,43 @@ TEST_F(SpreadScenario, ConservesHeatAndMass) {
     EXPECT_GT(lost_kg, 1e4);
 }
 
+TEST_F(SpreadScenario, ComesBackAsTheArrivalTimesOfAnotherProgram) {
+    run_phase(&pipeline::spread, own_fire(), scratch / "fire");
+    // The arrival raster in minutes without a unit tag, as FlamMap writes it: -9999 where the fire never came.
+    const auto arrival = gis::read_image(scratch / "fire" / "arrival.tif");
+    write_band(scratch / "toa.tif", grid_, "", [&](double x, double y) {
+        const double t = arrival.pixels[grid_.index(static_cast<int>(grid_.row_at(y)), static_cast<int>(grid_.col_at(x)))];
+        return std::isnan(t) ? -9999.0 : t / 60.0;
+    });
+    const auto scenario = [&](const char* unit) {
+        return write_scenario(unit,
+                              fmt::format("  arrival_model:\n    model: other\n    arrival: {{file: toa.tif, unit: {}}}\n"
+                                          "    flame_length: {{file: fire/flame_length.tif, unit: m}}\n"
+                                          "    fuel: {{file: fuel.tif, table: fbfm13}}\n    fuel_moisture_pct: 7\n"
+                                          "    duration_s: 2400\n    frame_step_s: 120\n    mean_over_s: 120\n",
+                                          unit));
+    };
+    run_phase(&pipeline::spread, scenario("min"), scratch / "back");
+    const auto own = gis::read_image(scratch / "fire" / "heat_flux.tif"),
+               back = gis::read_image(scratch / "back" / "heat_flux.tif");
+    double sum = 0.0, difference = 0.0;
+    for (std::size_t b = 0; b < 9; ++b)  // until 1080 s the moisture is 7 % in both
+        for (std::size_t i = b * grid_.size(); i < (b + 1) * grid_.size(); ++i) {
+            sum += own.pixels[i];
+            difference += std::abs(own.pixels[i] - back.pixels[i]);
+        }
+    EXPECT_GT(sum, 0.0);
+    EXPECT_LT(difference, 1e-3 * sum);
+    // Hours taken for seconds: the fire flies, and the run says so.
+    write_band(scratch / "toa.tif", grid_, "", [&](double x, double y) {
+        const double t = arrival.pixels[grid_.index(static_cast<int>(grid_.row_at(y)), static_cast<int>(grid_.col_at(x)))];
+        return std::isnan(t) ? -9999.0 : t / 3600.0;
+    });
+    const auto late = pyroscene_cli("prepare " + scenario("s").string() + " -o " + (scratch / "wrong").string());
+    EXPECT_EQ(late.exit_code, 0) << late.output;
+    EXPECT_NE(late.output.find("check inputs.arrival_model.arrival.unit"), std::string::npos) << late.output;
+}
+
 TEST_F(SpreadScenario, IsTheSameForAnyNumberOfThreads) {
     run_phase(&pipeline::spread, own_fire(), scratch / "one", 1);
     run_phase(&pipeline::spread, own_fire(), scratch / "three", 3);

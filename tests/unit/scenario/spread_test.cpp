@@ -24,8 +24,8 @@ TEST(Spread, ReadsTheShortestFire) {
     EXPECT_TRUE(inputs.heat_flux.files.empty());
     ASSERT_TRUE(inputs.spread);
     const auto& s = *inputs.spread;
-    EXPECT_EQ(s.fuel.files, std::vector{folder.path() / "fuel.tif"});
-    EXPECT_EQ(s.table, "fbfm40");
+    EXPECT_EQ(s.fuel.raster.files, std::vector{folder.path() / "fuel.tif"});
+    EXPECT_EQ(s.fuel.table, "fbfm40");
     ASSERT_EQ(s.ignition.size(), 1U);
     EXPECT_EQ(s.ignition[0].points, (std::vector<std::array<double, 2>>{{10.0, 20.0}}));
     EXPECT_EQ(s.moisture_pct[spread::kHerb], 60.0);
@@ -52,8 +52,8 @@ TEST(Spread, ReadsAllItsKeys) {
                  "0.3}, "
                  "wind_height: 10m, wind_limit: true, curing: linear, frames_s: [10, 25], coarse_burn_time_s: 60"))
              .inputs.spread;
-    EXPECT_EQ(s.nonburnable, (std::vector{0, 7}));
-    EXPECT_EQ(s.table, folder.path() / "classes.csv");
+    EXPECT_EQ(s.fuel.nonburnable, (std::vector{0, 7}));
+    EXPECT_EQ(s.fuel.table, folder.path() / "classes.csv");
     ASSERT_EQ(s.ignition.size(), 4U);
     EXPECT_EQ(s.ignition[0].line.size(), 2U);
     EXPECT_EQ(s.ignition[0].time_s, 60.0);

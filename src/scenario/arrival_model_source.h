@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/fuel_source.h"
+
+namespace pyroscene::scenario {
+
+/// A raster whose unit the scenario says.
+struct UnitRaster {
+    RasterSource raster;
+    std::string unit;
+};
+
+/// A fire known by arrival times that a two-dimensional spread model computed (inputs.arrival_model).
+struct ArrivalModelSource {
+    std::string model;  ///< which program; decides units that it always uses
+    UnitRaster arrival;
+    double offset_s = 0.0;  ///< of the model's clock: its 0 is so long after `start`
+    std::optional<UnitRaster> fireline_intensity, flame_length, spread_rate;
+    FuelSource fuel;
+    double fuel_moisture_pct = 8.0;
+    std::vector<double> frames_s;
+    double mean_over_s = 6.0;
+    double coarse_burn_time_s = 300.0;
+};
+
+}  // namespace pyroscene::scenario

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "scenario_folder.h"
+
+namespace pyroscene::scenario {
+namespace {
+
+std::string with_model(const std::string& keys, const std::string& more_inputs = "") {
+    return "pyroscene: 1\ninputs:\n  terrain: {file: dem.tif}\n  arrival_model: {" + keys +
+           ", fuel: {file: fuel.tif, table: fbfm13}, frames_s: [300]}\n" + more_inputs +
+           "start: 2017-07-15T22:00:00Z\nacquisitions:\n  - {id: a, sensor: wasp, time_s: 300, platform: {altitude_m: "
+           "3000}}\n";
+}
+
+TEST(ArrivalModel, KnowsTheUnitsThatAProgramAlwaysWrites) {
+    const ScenarioFolder folder;
+    const auto inputs =
+        folder
+            .load(with_model("model: elmfire, arrival: {file: arrival.tif}, flame_length: {file: heat.tif, band: 3}, "
+                             "fireline_intensity: {file: heat2.tif}, spread_rate: {file: wind.tif}, offset_s: -60"))
+            .inputs;
+    ASSERT_TRUE(inputs.arrival_model);
+    const auto& m = *inputs.arrival_model;
+    EXPECT_EQ(m.arrival.unit, "s");
+    EXPECT_EQ(m.flame_length->unit, "ft");
+    EXPECT_EQ(m.flame_length->raster.bands, std::vector{3});
+    EXPECT_EQ(m.fireline_intensity->unit, "kW/m");
+    EXPECT_EQ(m.spread_rate->unit, "ft/min");
+    EXPECT_EQ(m.offset_s, -60.0);
+    EXPECT_EQ(m.fuel_moisture_pct, 8.0);
+    EXPECT_EQ(m.fuel.table, "fbfm13");
+    EXPECT_EQ(m.frames_s, std::vector{300.0});
+}
+
+TEST(ArrivalModel, WantsTheUnitsThatFilesDoNotSay) {
+    const ScenarioFolder folder;
+    EXPECT_EQ(
+        folder.problems(with_model("model: farsite, arrival: {file: arrival.tif}")),
+        Lines{"4: inputs.arrival_model.arrival: key 'unit' is missing: files of 'farsite' do not say it; one of s, min, h"});
+    EXPECT_EQ(folder.problems(with_model("model: flammap, arrival: {file: arrival.tif}, spread_rate: {file: heat.tif}")),
+              Lines{"4: inputs.arrival_model.spread_rate: key 'unit' is missing: files of 'flammap' do not say it; one of "
+                    "m/s, m/min, ft/min, chain/h"});
+    EXPECT_EQ(
+        folder.load(with_model("model: farsite, arrival: {file: arrival.tif, unit: h}")).inputs.arrival_model->arrival.unit,
+        "h");
+    EXPECT_EQ(folder.problems(with_model("model: other, arrival: {file: arrival.tif, unit: days}")),
+              Lines{"4: inputs.arrival_model.arrival.unit: 'days' is none of s, min, h"});
+}
+
+TEST(ArrivalModel, StandsAlone) {
+    const ScenarioFolder folder;
+    EXPECT_EQ(folder.problems(with_model("model: elmfire, arrival: {file: arrival.tif}", "  heat_flux: {file: heat.tif}\n")),
+              Lines{"5: inputs.heat_flux: comes from 'arrival_model'; give one of the two"});
+    const auto raster = "fire: {flame_height: {method: raster}}\n";
+    EXPECT_EQ(folder.problems(with_model("model: elmfire, arrival: {file: arrival.tif}") + raster).size(), 1U);
+    EXPECT_EQ(
+        folder.problems(with_model("model: elmfire, arrival: {file: arrival.tif}, flame_length: {file: heat.tif}") + raster),
+        Lines{});
+}
+
+}  // namespace
+}  // namespace pyroscene::scenario
