@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "pipeline/hotspots.h"
 #include "pipeline/image_channels.h"
+#include "pipeline/qgis_style.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -67,6 +68,14 @@ void write_rasters(const DetectionScene& scene, const gis::ImageInfo& info, cons
     std::vector<float> classes;
     for (const FireClass c : found.fire) classes.push_back(static_cast<float>(c));
     write(scene.job.output, classes);
+    write_qgis_style(scene.job.output, {{2, "#80deea", "sun glint"},
+                                        {3, "#4678be", "water"},
+                                        {4, "#f0f0f0", "cloud"},
+                                        {5, "#bfc8b4", "no fire"},
+                                        {6, "#9670b4", "unknown"},
+                                        {7, "#ffd54f", "fire, low confidence"},
+                                        {8, "#ff7f00", "fire, nominal confidence"},
+                                        {9, "#d50000", "fire, high confidence"}});
 }
 
 void write_hotspots(const DetectionScene& scene, const gis::ImageInfo& info, const Detection& found,

@@ -1,6 +1,7 @@
 #include "pipeline/index_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,7 @@
 #include "base/error.h"
 #include "gis/pixel_positions.h"
 #include "gis/raster_input.h"
+#include "pipeline/qgis_style.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -126,6 +128,12 @@ IndexReport burn_severity(const IndexJob& job) {
     auto path = job.output;
     path.replace_filename(job.output.stem().string() + "_severity.tif");
     writer.write(path, severity, {classes.begin(), classes.end()});
+    constexpr std::array<const char*, 7> kColours{"#1a9850", "#a6d96a", "#e0e0d0", "#fee08b",
+                                                  "#fdae61", "#f46d43", "#a50026"};
+    std::vector<ClassStyle> styles;
+    for (std::size_t k = 0; k < kColours.size(); ++k)
+        styles.push_back({static_cast<int>(k) + 1, kColours[k], severity.class_names[k + 1]});
+    write_qgis_style(path, styles);
     return report;
 }
 

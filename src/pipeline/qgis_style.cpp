@@ -20,6 +20,14 @@ std::vector<ColourStop> evenly(const std::array<std::string_view, N>& colours, d
     return stops;
 }
 
+void write_renderer(std::filesystem::path raster, const std::string& renderer) {
+    write_text_file(raster.replace_extension(".qml"),
+                    "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
+                    "<qgis version=\"3.22\" styleCategories=\"Symbology\">\n"
+                    "  <pipe>\n" +
+                        renderer + "  </pipe>\n</qgis>\n");
+}
+
 }  // namespace
 
 std::vector<ColourStop> inferno(double low, double high) {
@@ -46,26 +54,27 @@ void write_qgis_style(const std::filesystem::path& raster, const RasterStyle& st
     for (const auto& stop : style.stops)
         items += fmt::format("          <item value=\"{:.6g}\" color=\"{}\" alpha=\"255\" label=\"{:.6g} {}\"/>\n",
                              stop.value, stop.colour, stop.value, style.unit);
-    const auto text = fmt::format(
-        "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
-        "<qgis version=\"3.22\" styleCategories=\"Symbology\">\n"
-        "  <pipe>\n"
-        "    <rasterrenderer type=\"singlebandpseudocolor\" band=\"{}\" opacity=\"1\" alphaBand=\"-1\" "
-        "classificationMin=\"{:.6g}\" "
-        "classificationMax=\"{:.6g}\">\n"
-        "      <rastershader>\n"
-        "        <colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"1\" clip=\"0\" "
-        "minimumValue=\"{:.6g}\" "
-        "maximumValue=\"{:.6g}\">\n"
-        "{}"
-        "        </colorrampshader>\n"
-        "      </rastershader>\n"
-        "    </rasterrenderer>\n"
-        "  </pipe>\n"
-        "</qgis>\n",
-        style.band, low, high, low, high, items);
-    auto path = raster;
-    write_text_file(path.replace_extension(".qml"), text);
+    write_renderer(
+        raster, fmt::format("    <rasterrenderer type=\"singlebandpseudocolor\" band=\"{}\" opacity=\"1\" alphaBand=\"-1\" "
+                            "classificationMin=\"{:.6g}\" classificationMax=\"{:.6g}\">\n"
+                            "      <rastershader>\n"
+                            "        <colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"1\" clip=\"0\" "
+                            "minimumValue=\"{:.6g}\" maximumValue=\"{:.6g}\">\n"
+                            "{}"
+                            "        </colorrampshader>\n"
+                            "      </rastershader>\n"
+                            "    </rasterrenderer>\n",
+                            style.band, low, high, low, high, items));
+}
+
+void write_qgis_style(const std::filesystem::path& raster, const std::vector<ClassStyle>& classes) {
+    std::string entries;
+    for (const auto& c : classes)
+        entries += fmt::format("        <paletteEntry value=\"{}\" color=\"{}\" alpha=\"255\" label=\"{}\"/>\n", c.value,
+                               c.colour, c.name);
+    write_renderer(
+        raster, "    <rasterrenderer type=\"paletted\" band=\"1\" opacity=\"1\" alphaBand=\"-1\">\n      <colorPalette>\n" +
+                    entries + "      </colorPalette>\n    </rasterrenderer>\n");
 }
 
 }  // namespace pyroscene::pipeline

@@ -19,6 +19,12 @@ struct RasterStyle {
     std::vector<ColourStop> stops;  ///< ascending
 };
 
+/// The colour and name of a class.
+struct ClassStyle {
+    int value = 0;
+    std::string colour, name;
+};
+
 /// Inferno (Smith and van der Walt 2015) from low to high.
 std::vector<ColourStop> inferno(double low, double high);
 /// Steps of fire radiative power from yellow to dark red: 0, 1/5 ... 5/5 of `high`.
@@ -30,5 +36,7 @@ std::vector<ColourStop> radiance_colours(double wavelength_um);
 
 /// Writes NAME.qml beside NAME.tif, which QGIS applies when it opens the raster.
 void write_qgis_style(const std::filesystem::path& raster, const RasterStyle& style);
+/// The same for a raster of classes; classes without an entry are not shown.
+void write_qgis_style(const std::filesystem::path& raster, const std::vector<ClassStyle>& classes);
 
 }  // namespace pyroscene::pipeline

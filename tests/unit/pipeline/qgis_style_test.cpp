@@ -27,6 +27,10 @@ TEST(QgisStyle, StandsBesideTheRaster) {
     EXPECT_NE(text.find("type=\"singlebandpseudocolor\" band=\"2\""), std::string::npos);
     EXPECT_NE(text.find("<item value=\"150\" color=\"#fd8d3c\" alpha=\"255\" label=\"150 MW\"/>"), std::string::npos);
     EXPECT_NE(text.find("minimumValue=\"0\" maximumValue=\"250\""), std::string::npos);
+    write_qgis_style(folder / "fires.tif", std::vector<ClassStyle>{{5, "#bfc8b4", "no fire"}, {9, "#d50000", "fire"}});
+    const auto classes = read_text_file(folder / "fires.qml");
+    EXPECT_NE(classes.find("type=\"paletted\" band=\"1\""), std::string::npos);
+    EXPECT_NE(classes.find("<paletteEntry value=\"9\" color=\"#d50000\" alpha=\"255\" label=\"fire\"/>"), std::string::npos);
     std::filesystem::remove_all(folder);
 }
 
