@@ -9,6 +9,7 @@
 #include "pipeline/footprints.h"
 #include "pipeline/line_plot.h"
 #include "pipeline/sensor_json.h"
+#include "pipeline/wrf_inputs.h"
 #include "scenario/scenario.h"
 #include "sensors/detector.h"
 #include "sensors/sensor.h"
@@ -105,7 +106,7 @@ void sensors_command(const SensorsOptions& options) {
         if (!options.id.empty() || options.json || !options.plot.empty())
             throw std::invalid_argument(
                 "sensors: --footprint takes its sensors from the scenario; leave ID, --json and --plot out");
-        const auto text = pipeline::footprints_geojson(scenario::load(options.footprint));
+        const auto text = pipeline::footprints_geojson(pipeline::load_scenario(options.footprint));
         if (options.output.empty())
             std::cout << text;
         else

@@ -112,6 +112,7 @@ CheckResult check(const Scenario& scenario) {
         passes(result, [&] { acquisitions += acquisition_summary(scenario, in, a, seconds); });
     if (!result.problems.empty()) return result;
     const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+    for (const auto& note : scenario.notes) acquisitions += "  note: " + note + "\n";
     result.summary = fmt::format(
         "{}: ready to run\n  map: {} x {} cells of {:g} m, terrain {:.0f} to {:.0f} m, centre {:.4f} N {:.4f} E\n  frames: "
         "{} ({:g} s to {:g} s)\n{}"

@@ -273,6 +273,7 @@ void in_session(const Scenario& scenario, const RunOptions& options, RunReport& 
         {
             const PhaseTimer loading(report, "load_inputs");
             session.emplace(scenario, options, report);
+            for (const auto& note : scenario.notes) report.warn(note);
         }
         phases(*session);
     } catch (const std::exception& e) {

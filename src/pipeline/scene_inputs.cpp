@@ -10,6 +10,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "gis/wrf_sfire.h"
 #include "pipeline/arrival_model.h"
 #include "pipeline/front_inputs.h"
 #include "pipeline/spread_model.h"
@@ -164,12 +165,14 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     if (in.wind && in.wind->raster) sources.push_back(&*in.wind->raster);
     if (in.cover) sources.push_back(&in.cover->raster);
     std::set<std::filesystem::path> unique;
+    if (in.wrf_sfire) unique.insert(in.wrf_sfire->files.begin(), in.wrf_sfire->files.end());
     if (in.spread)
         for (const auto& file : spread_files(*in.spread)) unique.insert(file);
     if (in.arrival_model)
         for (const auto& file : arrival_model_files(*in.arrival_model)) unique.insert(file);
     if (in.plume) unique.insert(in.plume->files.begin(), in.plume->files.end());
     for (const auto* source : sources) unique.insert(source->files.begin(), source->files.end());
+    std::erase_if(unique, gis::is_in_memory);  // what WRF files are read through; they themselves are in the list
     return {unique.begin(), unique.end()};
 }
 

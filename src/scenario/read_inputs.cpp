@@ -142,21 +142,21 @@ CoverSource read_cover(const config::Node& node, const fs::path& folder) {
         return cover;
     }
     cover.raster = read_source(node, folder, kStatic);
-    const config::Node table = node.required_child("table");
-    cover.table = table.as_text("");
-    const bool shipped = cover.table == "fbfm13" || cover.table == "fbfm40";
-    if (table.is_scalar() && !shipped) {
-        const bool file = cover.table.find('/') != std::string::npos || fs::path(cover.table).extension() == ".csv";
-        if (file)
-            cover.table = read_file_name(table, folder).string();
-        else
-            table.report(fmt::format("'{}' is none of fbfm13, fbfm40 or a CSV file", cover.table));
-    }
+    cover.table = read_fuel_table(node.required_child("table"), folder);
     node.finish();
     return cover;
 }
 
 }  // namespace
+
+std::string read_fuel_table(const config::Node& node, const fs::path& folder) {
+    std::string table = node.as_text("");
+    if (!node.is_scalar() || table == "fbfm13" || table == "fbfm40") return table;
+    if (table.find('/') != std::string::npos || fs::path(table).extension() == ".csv")
+        return read_file_name(node, folder).string();
+    node.report(fmt::format("'{}' is none of fbfm13, fbfm40 or a CSV file", table));
+    return table;
+}
 
 RasterSource read_raster(const config::Node& node, const fs::path& folder) { return read_source(node, folder, kStatic); }
 
@@ -167,11 +167,16 @@ RasterSource read_raster_series(const config::Node& node, const fs::path& folder
 Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     Inputs inputs;
     if (!node.present()) return inputs;
-    const config::Node terrain = node.required_child("terrain"), spread = node.child("spread");
-    inputs.terrain = read_source(terrain, folder, kStatic);
-    terrain.finish();
-    const config::Node modelled = node.child("arrival_model");
+    const config::Node wrf = node.child("wrf_sfire"), spread = node.child("spread"), modelled = node.child("arrival_model");
+    if (wrf.present()) inputs.wrf_sfire = read_wrf(wrf, folder);
+    const auto given = [&](const char* key) { return wrf.present() ? node.child(key) : node.required_child(key); };
+    if (const auto terrain = given("terrain"); terrain.present() || !wrf.present()) {
+        inputs.terrain = read_source(terrain, folder, kStatic);
+        terrain.finish();
+    }
     if (spread.present() && modelled.present()) modelled.report("'spread' makes a fire of its own; give one of the two");
+    for (const auto& fire : {spread, modelled})
+        if (wrf.present() && fire.present()) fire.report("'wrf_sfire' brings a fire of its own; give one of the two");
     const auto comes_from = [&](const char* source) {
         for (const char* key : {"heat_flux", "fuel_load", "arrival", "fireline_intensity", "flame_length", "spread_rate"})
             if (node.has(key)) node.child(key).report(fmt::format("comes from '{}'; give one of the two", source));
@@ -183,9 +188,10 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
         inputs.spread = read_spread(spread, folder);
         comes_from("spread");
     } else {
-        const config::Node heat_flux = node.required_child("heat_flux");
-        inputs.heat_flux = read_source(heat_flux, folder, kScalarSeries);
-        heat_flux.finish();
+        if (const auto heat_flux = given("heat_flux"); heat_flux.present() || !wrf.present()) {
+            inputs.heat_flux = read_source(heat_flux, folder, kScalarSeries);
+            heat_flux.finish();
+        }
     }
     inputs.fuel_load = read_optional(node.child("fuel_load"), folder, kScalarSeries);
     inputs.arrival = read_optional(node.child("arrival"), folder, kStatic);

@@ -35,6 +35,9 @@ struct FireFrames {
     double mean_over_s = 6.0;
 };
 FireFrames read_fire_frames(const config::Node& node);
+WrfSource read_wrf(const config::Node& node, const std::filesystem::path& folder);
+/// The code scheme of fuel classes: fbfm13, fbfm40 or a CSV file. Reports anything else.
+std::string read_fuel_table(const config::Node& node, const std::filesystem::path& folder);
 SpreadSource read_spread(const config::Node& node, const std::filesystem::path& folder);
 /// Flame height, tilt, fireline intensity and front depth: the part of `fire` that read_flames.cpp reads.
 void read_flame_relations(const config::Node& fire, fire::FireParameters& parameters);

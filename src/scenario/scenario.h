@@ -15,6 +15,7 @@
 #include "scenario/arrival_model_source.h"
 #include "scenario/raster_source.h"
 #include "scenario/spread_source.h"
+#include "scenario/wrf_source.h"
 
 namespace pyroscene::scenario {
 
@@ -40,7 +41,8 @@ struct PlumeSource {
 };
 
 struct Inputs {
-    RasterSource terrain, heat_flux;  ///< no heat flux with `spread` or `arrival_model`
+    RasterSource terrain, heat_flux;  ///< no heat flux with `spread` or `arrival_model`; neither need be with `wrf_sfire`
+    std::optional<WrfSource> wrf_sfire;
     std::optional<SpreadSource> spread;
     std::optional<ArrivalModelSource> arrival_model;
     std::optional<RasterSource> fuel_load, arrival;
@@ -167,6 +169,7 @@ struct Scenario {
     std::vector<Acquisition> acquisitions;
     Products products;
     std::uint64_t seed = 1;
+    std::vector<std::string> notes;  ///< what whoever opened the inputs found worth a warning
 };
 
 /// Reads and checks the file. All problems of the text are reported together in one input error (docs/scenario.md).

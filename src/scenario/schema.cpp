@@ -29,8 +29,8 @@ constexpr const char* kSchema = R"json({
     "inputs": {
       "type": "object",
       "additionalProperties": false,
-      "required": ["terrain"],
-      "oneOf": [{"required": ["heat_flux"]}, {"required": ["spread"]}, {"required": ["arrival_model"]}],
+      "oneOf": [{"required": ["terrain", "heat_flux"], "not": {"required": ["wrf_sfire"]}}, {"required": ["wrf_sfire"]},
+                {"required": ["terrain", "spread"]}, {"required": ["terrain", "arrival_model"]}],
       "properties": {
         "terrain": {"$ref": "#/$defs/static", "description": "elevation, m"},
         "heat_flux": {"$ref": "#/$defs/series", "description": "sensible heat flux of the surface fire, W m-2"},
@@ -96,6 +96,23 @@ constexpr const char* kSchema = R"json({
               "description": "default: 6, or the shortest time between frames when that is less"},
             "coarse_burn_time_s": {"type": "number", "minimum": 1, "maximum": 1e5, "description": "without it: 300"}
           }
+        },
+        "wrf_sfire": {
+          "description": "history files of WRF-SFIRE or WRF-Fire, one or several; inputs beside them go before theirs",
+          "oneOf": [
+            {"type": "string"},
+            {"type": "array", "minItems": 1, "items": {"type": "string"}},
+            {"type": "object",
+             "additionalProperties": false,
+             "properties": {
+               "file": {"type": "string"},
+               "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+               "crs": {"type": "string", "description": "projected, metres; of an idealised run, which has none"},
+               "west_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "its western edge"},
+               "south_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "its southern edge"},
+               "fuel_table": {"type": "string", "description": "what NFUEL_CAT counts: fbfm13, fbfm40 or a CSV file code,surface"}
+             }}
+          ]
         },
         "spread": {
           "description": "a fire that the program spreads itself, instead of heat_flux, fuel_load, arrival and what a front shows",

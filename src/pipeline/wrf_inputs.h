@@ -1,0 +1,16 @@
+#pragma once
+
+#include "scenario/scenario.h"
+
+namespace pyroscene::pipeline {
+
+/// The scenario with the rasters of its WRF-SFIRE files (`inputs.wrf_sfire`) in place of inputs that it does not give itself:
+/// terrain, heat flux of surface and crown fire, fuel load, arrival, wind, cover. They are read from the files when they are
+/// read, moment by moment. What was missing or looks wrong is added to Scenario::notes. Without such files the scenario as it
+/// is. Input errors: those of gis::open_wrf_sfire, no heat flux or terrain, no record after the scenario's start.
+scenario::Scenario with_wrf_inputs(scenario::Scenario scenario);
+
+/// scenario::load(), then with_wrf_inputs().
+inline scenario::Scenario load_scenario(const std::filesystem::path& file) { return with_wrf_inputs(scenario::load(file)); }
+
+}  // namespace pyroscene::pipeline

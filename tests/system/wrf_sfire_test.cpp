@@ -1,0 +1,145 @@
+// The thesis fire from a file in the layout of WRF-SFIRE and from GeoTIFFs on another grid: the same images.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "gis/geodesy.h"
+#include "gis/raster_input.h"
+#include "gis/raster_output.h"
+#include "pipeline/wrf_inputs.h"
+#include "system/support.h"
+
+namespace pyroscene::test {
+namespace {
+
+constexpr double kGain = 5.837674;               // of heat_flux.tif (its README); the WRF file has none
+const std::vector<int> kFrames{1, 3, 5, 9, 10};  // of heat_flux.tif that the WRF file has
+
+std::filesystem::path data(const std::string& file) { return source_folder() / "scenarios/thesis_grassfire" / file; }
+
+/// heat_flux.tif without its gain, at the times of the WRF file.
+void write_heat_flux(const std::filesystem::path& file) {
+    const auto grid = gis::make_map_grid(data("dem.tif"), {}, {});
+    gis::OutputRaster out;
+    out.cols = grid.cols;
+    out.rows = grid.rows;
+    out.grid = grid;
+    std::vector<float> values;
+    for (const int band : kFrames) {
+        auto frame = gis::read_band({data("heat_flux.tif"), band, gis::Resampling::Conserve, "heat flux", "W m-2"}, grid);
+        for (float& v : frame.values) v = static_cast<float>(v / kGain);
+        values.insert(values.end(), frame.values.begin(), frame.values.end());
+        out.bands.push_back({"heat flux", "W m-2", {}, {}, {}});
+    }
+    gis::write_geotiff(file, out, std::span<const float>(values));
+}
+
+struct Fire {
+    int cols = 0, rows = 0;
+    std::vector<double> excess;  ///< radiance above the ambient ground
+    double sum = 0.0;
+};
+Fire fire_of(const std::filesystem::path& radiance) {
+    const auto image = gis::read_image(radiance);
+    constexpr double kAmbient = 3.0;  // W m-2 sr-1 um-1 in 3-5 um at 305 K with sun
+    Fire fire{image.cols, image.rows, plane(image, 0), 0.0};
+    for (double& v : fire.excess) {
+        v = v > kAmbient ? v : 0.0;
+        fire.sum += v;
+    }
+    return fire;
+}
+
+/// {lines, samples} by which the second image must be moved to fit the first best, at most 5 pixels.
+std::array<int, 2> shift_between(const Fire& a, const Fire& b) {
+    constexpr int kMost = 5;
+    double best = -1.0;
+    std::array<int, 2> shift{};
+    for (int dy = -kMost; dy <= kMost; ++dy) {
+        for (int dx = -kMost; dx <= kMost; ++dx) {
+            double product = 0.0;
+            for (int row = kMost; row < a.rows - kMost; ++row)
+                for (int col = kMost; col < a.cols - kMost; ++col)
+                    product += a.excess[static_cast<std::size_t>(row * a.cols + col)] *
+                               b.excess[static_cast<std::size_t>((row - dy) * a.cols + col - dx)];
+            if (product > best) best = product, shift = {dy, dx};
+        }
+    }
+    return shift;
+}
+
+Raster<float> terrain_of(const std::filesystem::path& scenario) {
+    const auto loaded = pipeline::load_scenario(scenario);
+    const auto& file = loaded.inputs.terrain.files.front();
+    return gis::read_band({file, 1, gis::Resampling::Bilinear, "terrain", "m"}, gis::make_map_grid(file, {}, {}));
+}
+
+Fire fire_from(const ScratchFolder& scratch, const std::string& name, const std::string& inputs) {
+    const auto file = scratch / (name + ".yaml");
+    std::ofstream(file) << "pyroscene: 1\ninputs:\n"
+                        << inputs << R"(
+start: 2000-08-01T18:00:00Z
+render: {samples_per_axis: 1, flame_light: false}
+flame: {hot_gas: false}
+products: [radiance]
+acquisitions:
+  - {id: camera, sensor: wasp-thesis, bands: [MWIR], time_s: 3714,
+     platform: {over: {lat_deg: 43, lon_deg: -88}, altitude_m: 3300}}
+)";
+    const auto result = pyroscene_cli("run -q " + file.string() + " -o " + (scratch / name).string());
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return fire_of(scratch / name / "camera" / "radiance.tif");
+}
+
+// The WRF file holds the arrays of the GeoTIFFs (dem.tif: README of the case) on a grid of its own: every cell has its value,
+// whatever the order of rows and the padding.
+TEST(WrfSfire, CellsHaveTheValuesOfTheirArrays) {
+    const auto wrf = terrain_of(data("wrf_sfire.yaml"));
+    const auto dem = gis::read_band({data("dem.tif"), 1, gis::Resampling::Bilinear, "terrain", "m"},
+                                    gis::make_map_grid(data("dem.tif"), {}, {}));
+    ASSERT_EQ(wrf.values.size(), dem.values.size());
+    for (std::size_t i = 0; i < wrf.values.size(); ++i) ASSERT_NEAR(wrf.values[i], dem.values[i], 0.01);
+}
+
+TEST(WrfSfire, GivesTheImagesOfTheSameFireInGeoTiffs) {
+    const ScratchFolder scratch;
+    write_heat_flux(scratch / "heat_flux.tif");
+    const auto wrf = fire_from(
+        scratch, "wrf", fmt::format("  wrf_sfire: {{file: {}, fuel_table: fbfm13}}", data("wrfout_layout_d01.nc").string()));
+    const auto tif =
+        fire_from(scratch, "tif",
+                  fmt::format(R"(  terrain: {{file: {0}}}
+  heat_flux: {{file: {1}, times_s: [6, 1800, 3672, 3714, 3816]}}
+  fuel_load: {{file: {2}, bands: [1, 3, 5, 9, 10], times_s: [6, 1800, 3672, 3714, 3816]}}
+  wind: {{file: {3}, bands: [1, 2, 5, 6, 9, 10, 17, 18, 19, 20], times_s: [6, 1800, 3672, 3714, 3816]}}
+  arrival: {{file: {4}}}
+  cover: {{file: {5}, table: fbfm13}})",
+                              data("dem.tif").string(), (scratch / "heat_flux.tif").string(), data("fuel_load.tif").string(),
+                              data("wind.tif").string(), data("arrival.tif").string(), data("fuel_model.tif").string()));
+    EXPECT_NEAR(wrf.sum / tif.sum, 1.0, 0.05);
+    // Same arrays, so the fires differ by how far the cells of the two grids lie apart, here in the middle of the map. Pixels are
+    // 3 m, lines run south.
+    const auto grid = terrain_of(data("wrf_sfire.yaml")).grid, utm = gis::make_map_grid(data("dem.tif"), {}, {});
+    const int col = 70, row = 70;
+    const auto place = gis::MapProjection(grid.crs_wkt).to_geodetic(grid.x_centre_m(col), grid.y_centre_m(row));
+    const auto [x_m, y_m] = gis::MapProjection(utm.crs_wkt).to_map(place.lat_deg, place.lon_deg);
+    const auto [lines, samples] = shift_between(wrf, tif);
+    EXPECT_NEAR(samples, (x_m - utm.x_centre_m(col)) / 3.0, 1.5);
+    EXPECT_NEAR(lines, -(y_m - utm.y_centre_m(row)) / 3.0, 1.5);
+}
+
+TEST(WrfSfire, OnAnotherMapItIsStillInItsPlace) {
+    const ScratchFolder scratch;
+    const std::string inputs = fmt::format("  wrf_sfire: {}\n", data("wrfout_layout_d01.nc").string());
+    const auto own = fire_from(scratch, "own", inputs);
+    const auto utm = fire_from(scratch, "utm", inputs + "map: {crs: EPSG:32616, cell_m: 20}");
+    EXPECT_NEAR(own.sum / utm.sum, 1.0, 0.1);
+    // Fronts are known to a cell of 20 m: within half of one.
+    for (const int pixels : shift_between(own, utm)) EXPECT_LE(std::abs(pixels), 3);
+}
+
+}  // namespace
+}  // namespace pyroscene::test

@@ -1,0 +1,110 @@
+#include "unit/gis/wrf_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <cpl_string.h>
+#include <gdal_priv.h>
+
+#include "gis/gdal_support.h"
+
+namespace pyroscene::gis {
+namespace {
+
+constexpr double kRadius_m = 6370000.0, kPi = 3.14159265358979323846;
+
+using Dimensions = std::vector<std::shared_ptr<GDALDimension>>;
+
+void write_floats(GDALGroup& root, const std::string& name, const Dimensions& dimensions, const std::vector<float>& values) {
+    const auto array = root.CreateMDArray(name, dimensions, GDALExtendedDataType::Create(GDT_Float32), nullptr);
+    std::vector<GUInt64> start(dimensions.size(), 0);
+    std::vector<std::size_t> count;
+    for (const auto& d : dimensions) count.push_back(static_cast<std::size_t>(d->GetSize()));
+    array->Write(start.data(), count.data(), nullptr, nullptr, array->GetDataType(), values.data());
+}
+
+}  // namespace
+
+double WrfTestFile::fire_value(const std::string& variable, int record, int col, int row) {
+    if (variable == "ZSF") return 1000.0 + col + 100.0 * row;
+    if (variable == "TIGN_G") return col < 4 ? 30.0 + col + 0.125 * row : 1e6;  // the last record is 70 s after the start
+    if (variable == "FUEL_FRAC") return 0.5;
+    if (variable == "FGIP") return 2.0;
+    if (variable == "UF") return 3.0;
+    if (variable == "VF") return -1.0;
+    return record * 1000.0 + col + 20.0 * row;  // FGRNHFX
+}
+
+std::pair<double, double> WrfTestFile::lon_lat(double x_m, double y_m) const {
+    // Snyder 1987, eqs 15-1 to 15-5 and 14-9 (spherical Lambert conformal conic).
+    const auto rad = [](double deg) { return deg * kPi / 180.0; };
+    const auto t = [](double lat) { return std::tan(kPi / 4.0 + lat / 2.0); };
+    const double n = std::log(std::cos(rad(true1)) / std::cos(rad(true2))) / std::log(t(rad(true2)) / t(rad(true1)));
+    const double F = std::cos(rad(true1)) * std::pow(t(rad(true1)), n) / n;
+    const double rho0 = kRadius_m * F / std::pow(t(rad(centre_lat)), n);
+    const double rho = std::hypot(x_m, rho0 - y_m), theta = std::atan2(x_m, rho0 - y_m);
+    const double lat = 2.0 * std::atan(std::pow(kRadius_m * F / rho, 1.0 / n)) - kPi / 2.0;
+    return {stand_lon + theta / n * 180.0 / kPi, lat * 180.0 / kPi};
+}
+
+void WrfTestFile::write(const std::filesystem::path& path) const {
+    initialise_gdal();
+    auto* driver = GetGDALDriverManager()->GetDriverByName("netCDF");
+    CPLStringList options;
+    options.SetNameValue("FORMAT", format.c_str());
+    const DatasetPtr dataset(driver->CreateMultiDimensional(path.c_str(), nullptr, options.List()));
+    const auto root = dataset->GetRootGroup();
+    std::map<std::string, double> numbers{{"MAP_PROJ", map_projection},
+                                          {"DX", dx_m},
+                                          {"DY", dy_m},
+                                          {"TRUELAT1", true1},
+                                          {"TRUELAT2", true2},
+                                          {"MOAD_CEN_LAT", centre_lat},
+                                          {"STAND_LON", stand_lon},
+                                          {"CEN_LAT", centre_lat},
+                                          {"CEN_LON", stand_lon}};
+    for (const auto& [name, value] : attributes) numbers[name] = value;
+    for (const auto& [name, value] : numbers)
+        if (!std::isnan(value)) root->CreateAttribute(name, {}, GDALExtendedDataType::Create(GDT_Float64))->Write(value);
+    root->CreateAttribute("START_DATE", {}, GDALExtendedDataType::CreateString())->Write(start.c_str());
+
+    const auto dimension = [&](const char* name, int size) {
+        return root->CreateDimension(name, {}, {}, static_cast<GUInt64>(size), nullptr);
+    };
+    const int records = static_cast<int>(times.size()), fine_cols = (cols + 1) * refine_x, fine_rows = (rows + 1) * refine_y;
+    const auto time = dimension("Time", records), y = dimension("south_north", rows), x = dimension("west_east", cols);
+    const auto fy = dimension("south_north_subgrid", fine_rows), fx = dimension("west_east_subgrid", fine_cols);
+    const auto wanted = [&](const char* name) {
+        return std::find(left_out.begin(), left_out.end(), name) == left_out.end();
+    };
+
+    if (wanted("Times")) {
+        const auto type = GDALExtendedDataType::CreateString(19);
+        const auto array = root->CreateMDArray("Times", {time}, type, nullptr);
+        std::vector<const char*> texts;
+        for (const auto& text : times) texts.push_back(text.c_str());
+        const GUInt64 start_at = 0;
+        const auto count = static_cast<std::size_t>(records);
+        array->Write(&start_at, &count, nullptr, nullptr, type, texts.data());
+    }
+    std::vector<float> lon, lat;
+    for (int t = 0; t < records; ++t)
+        for (int r = 0; r < rows; ++r)
+            for (int c = 0; c < cols; ++c) {
+                const auto [at_lon, at_lat] = lon_lat(west_m + (c + 0.5) * dx_m, south_m + (r + 0.5) * dy_m);
+                lon.push_back(static_cast<float>(at_lon + (r == 1 && c == 2 ? longitude_error_deg : 0.0)));
+                lat.push_back(static_cast<float>(map_projection == 0 ? 0.0 : at_lat));
+            }
+    if (wanted("XLONG")) write_floats(*root, "XLONG", {time, y, x}, lon);
+    if (wanted("XLAT")) write_floats(*root, "XLAT", {time, y, x}, lat);
+    for (const char* name : {"ZSF", "TIGN_G", "FUEL_FRAC", "FGIP", "UF", "VF", "FGRNHFX"}) {
+        if (!wanted(name)) continue;
+        std::vector<float> values;
+        for (int t = 0; t < records; ++t)
+            for (int r = 0; r < fine_rows; ++r)
+                for (int c = 0; c < fine_cols; ++c) values.push_back(static_cast<float>(fire_value(name, t, c, r)));
+        write_floats(*root, name, {time, fy, fx}, values);
+    }
+}
+
+}  // namespace pyroscene::gis
