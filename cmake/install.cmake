@@ -33,4 +33,4 @@ configure_package_config_file(cmake/pyroscene-config.cmake.in ${CMAKE_CURRENT_BI
   INSTALL_DESTINATION ${PYROSCENE_PACKAGE_DIR} PATH_VARS PYROSCENE_SHARE_DIR)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/pyroscene-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pyroscene-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/pyroscene-config-version.cmake
-              cmake/opencv.cmake cmake/openvdb.cmake DESTINATION ${PYROSCENE_PACKAGE_DIR})
+              cmake/opencv.cmake cmake/openvdb.cmake cmake/hdf4.cmake DESTINATION ${PYROSCENE_PACKAGE_DIR})

@@ -14,6 +14,25 @@ namespace pyroscene::gis {
 namespace {
 
 using Dimensions = std::map<std::string, std::shared_ptr<GDALDimension>>;
+using Groups = std::map<std::string, std::shared_ptr<GDALGroup>>;
+
+GDALDataType gdal_type(SampleType type) {
+    switch (type) {
+        case SampleType::UInt8:
+            return GDT_Byte;
+        case SampleType::Int16:
+            return GDT_Int16;
+        case SampleType::UInt16:
+            return GDT_UInt16;
+        case SampleType::Int32:
+            return GDT_Int32;
+        case SampleType::Float32:
+            return GDT_Float32;
+        case SampleType::Float64:
+            break;
+    }
+    return GDT_Float64;
+}
 
 template <class Owner>
 void set_text(Owner& owner, const std::string& name, const std::string& text) {
@@ -22,26 +41,39 @@ void set_text(Owner& owner, const std::string& name, const std::string& text) {
     if (attribute) attribute->Write(text.c_str());
 }
 
-void write_variable(GDALGroup& root, const Dimensions& dimensions, const NetCdfVariable& v, const std::string& subject,
-                    const GdalErrors& errors) {
+void set_attribute(GDALMDArray& array, const std::string& name, const Attribute& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) return set_text(array, name, *text);
+    const auto& numbers = std::get<Numbers>(value);
+    std::vector<GUInt64> count;
+    if (numbers.values.size() > 1) count.push_back(numbers.values.size());
+    const auto attribute = array.CreateAttribute(name, count, GDALExtendedDataType::Create(gdal_type(numbers.type)));
+    if (attribute) attribute->Write(numbers.values.data(), numbers.values.size());
+}
+
+/// The group of "group/name", made when it is not there yet; the root for a plain name.
+std::pair<GDALGroup*, std::string> place_of(const std::string& name, Groups& groups) {
+    const auto slash = name.find('/');
+    if (slash == std::string::npos) return {groups.at("").get(), name};
+    auto& group = groups[name.substr(0, slash)];
+    if (!group) group = groups.at("")->CreateGroup(name.substr(0, slash));
+    return {group.get(), name.substr(slash + 1)};
+}
+
+void write_variable(Groups& groups, const Dimensions& dimensions, const ArrayFile& file, const ArrayVariable& v,
+                    const std::string& subject, const GdalErrors& errors) {
+    const auto count = checked_shape(file, v, subject);
     std::vector<std::shared_ptr<GDALDimension>> axes;
-    std::vector<std::size_t> count;
-    std::size_t size = 1;
-    for (const auto& name : v.dimensions) {
-        axes.push_back(dimensions.at(name));
-        count.push_back(static_cast<std::size_t>(axes.back()->GetSize()));
-        size *= count.back();
-    }
-    if (v.values.size() != size)
-        throw runtime_error(
-            subject, fmt::format("variable {} has {} values, its dimensions ask for {}", v.name, v.values.size(), size));
+    for (const auto& name : v.dimensions) axes.push_back(dimensions.at(name));
     CPLStringList options;
     if (!axes.empty()) options.SetNameValue("COMPRESS", "DEFLATE");
-    const auto type = GDALExtendedDataType::Create(v.single_precision ? GDT_Float32 : GDT_Float64);
-    const auto array = root.CreateMDArray(v.name, axes, type, options.List());
+    const auto type = GDALExtendedDataType::Create(gdal_type(v.type));
+    const auto [group, name] = place_of(v.name, groups);
+    const auto array = group == nullptr ? nullptr : group->CreateMDArray(name, axes, type, options.List());
     if (!array) throw runtime_error(subject, fmt::format("variable {}: {}", v.name, errors.message()));
-    array->SetUnit(v.unit);
+    if (!v.unit.empty()) array->SetUnit(v.unit);
     set_text(*array, "long_name", v.long_name);
+    if (v.fill) array->SetNoDataValue(*v.fill);
+    for (const auto& [key, value] : v.attributes) set_attribute(*array, key, value);
     const std::vector<GUInt64> start(count.size(), 0);
     if (!array->Write(start.data(), count.data(), nullptr, nullptr, GDALExtendedDataType::Create(GDT_Float64),
                       v.values.data()))
@@ -50,7 +82,7 @@ void write_variable(GDALGroup& root, const Dimensions& dimensions, const NetCdfV
 
 }  // namespace
 
-void write_netcdf(const std::filesystem::path& path, const NetCdfFile& file) {
+void write_netcdf(const std::filesystem::path& path, const ArrayFile& file) {
     initialise_gdal();
     const GdalErrors errors;
     const std::string subject = path.string();
@@ -62,15 +94,16 @@ void write_netcdf(const std::filesystem::path& path, const NetCdfFile& file) {
         options.SetNameValue("FORMAT", "NC4");
         const DatasetPtr dataset(driver->CreateMultiDimensional(target.path().c_str(), nullptr, options.List()));
         if (!dataset) throw runtime_error(subject, "cannot be created: " + errors.message());
-        const auto root = dataset->GetRootGroup();
+        Groups groups{{"", dataset->GetRootGroup()}};
+        const auto& root = groups.at("");
         if (!root) throw runtime_error(subject, "cannot be created: " + errors.message());
         Dimensions dimensions;
         for (const auto& [name, size] : file.dimensions) {
             dimensions[name] = root->CreateDimension(name, "", "", size);
             if (!dimensions[name]) throw runtime_error(subject, fmt::format("dimension {}: {}", name, errors.message()));
         }
-        for (const auto& variable : file.variables) write_variable(*root, dimensions, variable, subject, errors);
         for (const auto& [name, text] : file.attributes) set_text(*root, name, text);
+        for (const auto& variable : file.variables) write_variable(groups, dimensions, file, variable, subject, errors);
         dataset->FlushCache(true);
         if (errors.failed()) throw runtime_error(subject, "cannot be written: " + errors.message());
     }

@@ -206,6 +206,7 @@ void write_tiled(const std::filesystem::path& path, const OutputRaster& raster, 
     if (!dataset) throw runtime_error(subject, "cannot be written: " + errors.message());
     set_spatial_reference(*dataset, raster);
     describe_bands(*dataset, raster);
+    for (const auto& [key, value] : raster.rpc) dataset->SetMetadataItem(key.c_str(), value.c_str(), "RPC");
     for (const Tag& tag : tags_with_statistics(raster, pixels, subject))
         owner_of(*dataset, tag).SetMetadataItem(tag.key.c_str(), tag.value.c_str(), tag.domain.c_str());
     if (raster.classes)

@@ -39,6 +39,7 @@ struct OutputRaster {
     std::vector<GroundControlPoint> control_points;  ///< sensor geometry: fall-back for programs without geolocation arrays
     std::optional<std::filesystem::path> like;  ///< instead of these three: a raster of the same size whose CRS, transform,
                                                 ///< control points and geolocation arrays are taken over
+    std::map<std::string, std::string> rpc;     ///< sensor geometry of a frame: GDAL's metadata domain RPC
     std::map<std::string, std::string> metadata;  ///< default domain
     bool synthetic = true;                        ///< adds synthetic=true; false only for what is made of a real image
     std::string acquisition_time;                 ///< ISO 8601 UTC; also TIFFTAG_DATETIME. Empty = none

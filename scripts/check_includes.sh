@@ -23,7 +23,7 @@ BEGIN {
     allow["cli"]        = "base fire spread radiometry analysis gis sensors scenario pipeline"
 
     # module -> third-party headers (regular expression) its .cpp files may include; fmt is free for all, headers get none
-    foreign["gis"]      = "^(gdal|ogr|cpl_|proj|GeographicLib/)"
+    foreign["gis"]      = "^(gdal|ogr|cpl_|proj|GeographicLib/|hdf/mfhdf)"
     foreign["fire"]     = "^(nlopt|Eigen/|unsupported/Eigen/)"
     foreign["spread"]   = "^(tbb/|oneapi/tbb)"
     foreign["analysis"] = "^boost/math/"

@@ -12,6 +12,7 @@ build_packages=(
     libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev # quick-looks; libopencv-dev would pull in everything
     libnlopt-cxx-dev libnlopt-dev libeigen3-dev libboost-math-dev   # minimisers, linear algebra, distributions
     libyaml-cpp-dev nlohmann-json3-dev libssl-dev                   # scenarios, reports, checksums
+    libhdf4-alt-dev                                                 # MODIS level 1B; comes with libgdal-dev anyway
     libopenvdb-dev                                                  # optional: flames as .vdb
     libcli11-dev libspdlog-dev libfmt-dev
     libgtest-dev # looked for whenever CMake configures with tests on

@@ -16,8 +16,11 @@
 namespace pyroscene::pipeline {
 namespace {
 
-/// Response-weighted solar irradiance at 1 AU, W m-2 um-1 (trapezoids over the points of the response, refined).
-double solar_irradiance(const Spectrum& response) {
+bool is_radiance(const std::string& unit) { return unit.empty() || unit.find("sr") != std::string::npos; }
+
+}  // namespace
+
+double solar_irradiance_W_m2_um(const Spectrum& response) {
     const auto table = read_csv(data_folder() / "optical" / "solar_irradiance.csv");
     const Spectrum sun{Quantity::Irradiance, table.numbers("wavelength_um"), table.numbers("irradiance_W_m2_um")};
     constexpr int kSteps = 200;
@@ -30,10 +33,6 @@ double solar_irradiance(const Spectrum& response) {
     }
     return weighted / weights;
 }
-
-bool is_radiance(const std::string& unit) { return unit.empty() || unit.find("sr") != std::string::npos; }
-
-}  // namespace
 
 double Channel::black_body(double T_K) const { return radiometry::band_mean_radiance(T_K, response); }
 
@@ -136,7 +135,7 @@ Channel ImageChannels::read(int number, Expect expect) {
 std::vector<float> reflectances(const Channel& channel, const std::vector<float>& sun_zenith_deg, double distance_AU) {
     if (channel.unit == "1") return channel.values;
     constexpr double kLowestSun_deg = 85.0;
-    const double scale = kPi * distance_AU * distance_AU / solar_irradiance(channel.response);
+    const double scale = kPi * distance_AU * distance_AU / solar_irradiance_W_m2_um(channel.response);
     std::vector<float> out(channel.values.size(), std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < out.size(); ++i) {
         const double zenith_deg = static_cast<double>(sun_zenith_deg[i]);

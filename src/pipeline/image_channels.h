@@ -57,6 +57,9 @@ private:
     std::optional<sensors::Sensor> sensor_;
 };
 
+/// Response-weighted solar irradiance at 1 AU, W m-2 um-1 (trapezoids over the points of the response, refined).
+double solar_irradiance_W_m2_um(const Spectrum& response);
+
 /// Reflectances at the top of the atmosphere, pi L d^2 / (E cos theta), of a radiance band; the values themselves where the
 /// band is a reflectance. NaN where the sun is lower than 5 degrees.
 /// \param distance_AU  sun to Earth

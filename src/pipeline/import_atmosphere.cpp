@@ -141,9 +141,9 @@ std::vector<Source> read_list(const fs::path& list, const Source& common) {
     return sources;
 }
 
-gis::NetCdfVariable variable(const char* name, std::vector<std::string> dimensions, const char* unit, const char* meaning,
-                             const std::vector<float>& values) {
-    return {name, std::move(dimensions), unit, meaning, {values.begin(), values.end()}, true};
+gis::ArrayVariable variable(const char* name, std::vector<std::string> dimensions, const char* unit, const char* meaning,
+                            const std::vector<float>& values) {
+    return {name, std::move(dimensions), unit, meaning, {values.begin(), values.end()}, gis::SampleType::Float32, {}, {}};
 }
 
 }  // namespace
@@ -171,11 +171,11 @@ std::vector<AtmosphereRun> read_atmosphere_runs(const ImportAtmosphereRequest& r
 void write_atmosphere_table(const fs::path& path, const radiometry::AtmosphereTable& t,
                             const std::map<std::string, std::string>& attributes) {
     const std::vector<std::string> path_axes{"sensor_altitude", "view_zenith", "wavelength"};
-    gis::NetCdfFile file;
+    gis::ArrayFile file;
     file.attributes = attributes;
     const auto axis = [&](const char* name, const char* unit, const char* meaning, const std::vector<double>& values) {
         file.dimensions.emplace_back(name, values.size());
-        file.variables.push_back({name, {name}, unit, meaning, values, false});
+        file.variables.push_back({name, {name}, unit, meaning, values, gis::SampleType::Float64, {}, {}});
     };
     axis("sensor_altitude", "km", "above the ground", t.sensor_altitude_km);
     axis("view_zenith", "degree", "at the ground", t.view_zenith_deg);
@@ -183,8 +183,9 @@ void write_atmosphere_table(const fs::path& path, const radiometry::AtmosphereTa
     axis("relative_azimuth", "degree", "sun minus line of sight (sensor to target): 0 looks towards the sun",
          t.relative_azimuth_deg);
     axis("wavelength", "um", "in vacuum", t.wavelength_um);
-    file.variables.push_back({"visibility", {}, "km", "", {t.visibility_km}, false});
-    file.variables.push_back({"ground_elevation", {}, "km", "above sea level", {t.ground_elevation_km}, false});
+    file.variables.push_back({"visibility", {}, "km", "", {t.visibility_km}, gis::SampleType::Float64, {}, {}});
+    file.variables.push_back(
+        {"ground_elevation", {}, "km", "above sea level", {t.ground_elevation_km}, gis::SampleType::Float64, {}, {}});
     const char *radiance = "W m-2 sr-1 um-1", *irradiance = "W m-2 um-1";
     file.variables.push_back(
         variable("toa_solar_irradiance", {"wavelength"}, irradiance, "at 1 AU, normal to the beam", t.toa_solar_irradiance));

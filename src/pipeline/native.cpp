@@ -13,7 +13,15 @@ void write_native(const ProductJob& job, const RenderedImage& image, const analy
         case NativeForm::AvirisEnvi:
         case NativeForm::AvirisNgEnvi:
             return write_aviris(native);
-        default:
+        case NativeForm::ModisL1b:
+            return write_modis(native);
+        case NativeForm::ViirsL1b:
+            return write_viirs(native);
+        case NativeForm::OrientedFrames:
+            return write_oriented_frame(native);
+        case NativeForm::AirborneStrip:
+            return write_strip(native);
+        case NativeForm::None:
             report.warn(fmt::format("acquisition '{}': sensor '{}' has no native form beside GeoTIFF", job.acquisition.id,
                                     job.sensor.id));
     }

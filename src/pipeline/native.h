@@ -23,5 +23,9 @@ struct NativeJob {
     }
 };
 void write_aviris(const NativeJob& job);
+void write_modis(const NativeJob& job);
+void write_viirs(const NativeJob& job);
+void write_oriented_frame(const NativeJob& job);  ///< needs the geometry
+void write_strip(const NativeJob& job);           ///< needs the geometry
 
 }  // namespace pyroscene::pipeline

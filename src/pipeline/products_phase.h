@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
+
 #include "base/report.h"
 #include "pipeline/output_names.h"
 #include "pipeline/run.h"
 #include "pipeline/scene_inputs.h"
-#include "sensors/sensor.h"
+#include "sensors/image_geometry.h"
 
 namespace pyroscene::pipeline {
 
@@ -19,6 +21,7 @@ struct ProductJob {
     AcquisitionFiles files;
     std::string fingerprint;
     bool force = false;
+    std::optional<sensors::ImageGeometry> geometry = {};  ///< for native forms
 };
 
 /// Makes the products the scenario asks for: brightness temperature, fractions, FRP, ortho COGs, vectors, quick-look, STAC item.

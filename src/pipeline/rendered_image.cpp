@@ -35,23 +35,28 @@ void measure_pixels(RenderedImage& r) {
 
 }  // namespace
 
-RenderedImage read_rendered(const ProductJob& job) {
+RenderedImage read_ground(const ProductJob& job) {
     RenderedImage r;
-    r.radiance = gis::read_image(job.files.radiance());
     r.geolocation = gis::read_image(job.files.geolocation());
-    if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth(), kExitance + 1);
-    r.samples = r.radiance.cols;
-    r.lines = r.radiance.rows;
+    r.samples = r.geolocation.cols;
+    r.lines = r.geolocation.rows;
     r.n = static_cast<std::size_t>(r.samples) * static_cast<std::size_t>(r.lines);
     r.x_m.assign(r.where(kLongitude).begin(), r.where(kLongitude).end());
     r.y_m.assign(r.where(kLatitude).begin(), r.where(kLatitude).end());
     gis::MapProjection(job.inputs.grid.crs_wkt).to_map(r.x_m, r.y_m);
     const auto number = [&](const char* key) {
-        const auto found = r.radiance.metadata.find(key);
-        return found == r.radiance.metadata.end() ? 0 : std::stoi(found->second);
+        const auto found = r.geolocation.metadata.find(key);
+        return found == r.geolocation.metadata.end() ? 0 : std::stoi(found->second);
     };
     r.scans = {number("LINES_PER_SCAN"), number("FIRST_LINE_OF_SCAN")};
     measure_pixels(r);
+    return r;
+}
+
+RenderedImage read_rendered(const ProductJob& job) {
+    RenderedImage r = read_ground(job);
+    r.radiance = gis::read_image(job.files.radiance());
+    if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth(), kExitance + 1);
     return r;
 }
 

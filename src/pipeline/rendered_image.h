@@ -52,6 +52,9 @@ struct RenderedImage {
 /// Reads radiance, geolocation and, where the scenario has it, truth of a job. Throws an input error naming a missing file.
 RenderedImage read_rendered(const ProductJob& job);
 
+/// The same without radiance and truth.
+RenderedImage read_ground(const ProductJob& job);
+
 /// A round ortho cell near the pixel size: two significant digits.
 double ortho_cell_m(double gsd_m);
 

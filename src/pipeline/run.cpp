@@ -14,6 +14,8 @@
 #include "pipeline/energy.h"
 #include "pipeline/fingerprint.h"
 #include "pipeline/fronts.h"
+#include "pipeline/hash.h"
+#include "pipeline/mosaics.h"
 #include "pipeline/products_phase.h"
 #include "pipeline/render_phase.h"
 #include "pipeline/run_html.h"
@@ -224,6 +226,58 @@ void render_phase(Session& s) {
     for (const auto* acquisition : chosen_acquisitions(s.scenario, s.options)) render_acquisition(s, *acquisition, terrain);
 }
 
+/// What the products of a rendered group are made from. Throws an input error when it is not rendered as the scenario says.
+ProductJob product_job(const Session& s, const Acquisition& acquisition, const sensors::Sensor& sensor,
+                       const std::string& group, std::size_t group_count) {
+    const auto files = files_of(s, acquisition, group, group_count);
+    if (!is_current(files.radiance(), s.fingerprints.image(acquisition), RunOptions{}))
+        throw input_error(files.radiance().string(), "no current radiance for this scenario; run 'pyroscene render' first");
+    ProductJob job{s.scenario,
+                   acquisition,
+                   s.inputs,
+                   sensor,
+                   sensor.group(group),
+                   wanted_bands(acquisition, sensor, group),
+                   files,
+                   s.fingerprints.product(acquisition),
+                   s.options.force};
+    if (s.scenario.products.native) {
+        const auto state = state_for(s, acquisition);
+        job.geometry = resolve_geometry(acquisition, s.inputs, &state, sensor, job.group);
+    }
+    return job;
+}
+
+/// Mosaics whose images are all there; --acquisition may have left some out.
+void mosaics_phase(Session& s) {
+    for (const auto& mosaic : s.scenario.mosaics) {
+        std::vector<const Acquisition*> members;
+        for (const auto& id : mosaic.of)
+            for (const auto& a : s.scenario.acquisitions)
+                if (a.id == id) members.push_back(&a);
+        const auto sensor = sensors::load_sensor(members.front()->sensor);
+        const auto groups = wanted_groups(*members.front(), sensor);
+        for (const auto& group : groups) {
+            s.stop_if_cancelled();
+            const std::string suffix = groups.size() > 1 ? "_" + group : "";
+            MosaicJob job{mosaic, {}, s.options.output / mosaic.id / ("mosaic_radiance" + suffix + ".tif"), ""};
+            for (const auto* a : members) job.fingerprint += s.fingerprints.image(*a);
+            job.fingerprint = sha256(job.fingerprint + fmt::format("{}", static_cast<int>(mosaic.rule))).substr(0, 32);
+            if (is_current(job.file, job.fingerprint, s.options)) continue;
+            try {
+                for (const auto* a : members)
+                    job.members.push_back(product_job(s, *a, sensor, group, wanted_groups(*a, sensor).size()));
+            } catch (const Error& e) {
+                s.report.warn(fmt::format("mosaic '{}' was not made: {}", mosaic.id, e.what()));
+                continue;
+            }
+            const PhaseTimer timer(s.report, "products/mosaic");
+            s.progress("mosaic " + mosaic.id, 0.0);
+            write_mosaic(job, s.report);
+        }
+    }
+}
+
 void products_phase(Session& s) {
     const PhaseTimer timer(s.report, "products");
     std::vector<ReportImage> images;
@@ -232,27 +286,16 @@ void products_phase(Session& s) {
         const auto groups = wanted_groups(*acquisition, sensor);
         for (const auto& id : groups) {
             s.stop_if_cancelled();
-            const auto files = files_of(s, *acquisition, id, groups.size());
-            if (!is_current(files.radiance(), s.fingerprints.image(*acquisition), RunOptions{}))
-                throw input_error(files.radiance().string(),
-                                  "no current radiance for this scenario; run 'pyroscene render' first");
-            const ProductJob job{s.scenario,
-                                 *acquisition,
-                                 s.inputs,
-                                 sensor,
-                                 sensor.group(id),
-                                 wanted_bands(*acquisition, sensor, id),
-                                 files,
-                                 s.fingerprints.product(*acquisition),
-                                 s.options.force};
+            const ProductJob job = product_job(s, *acquisition, sensor, id, groups.size());
             if (make_products(job, s.options, s.report))
                 s.report.count("product_sets_made", 1);
             else
                 s.report.count("product_sets_skipped", 1);
-            images.push_back({acquisition, sensor.name, id, files, job.fingerprint});
+            images.push_back({acquisition, sensor.name, id, job.files, job.fingerprint});
         }
         keep_energy(s.report, s.options.output, acquisition->id);
     }
+    mosaics_phase(s);
     write_catalog(s.scenario, s.options.output);
     if (s.scenario.products.report) {
         const PhaseTimer page(s.report, "products/report");

@@ -55,6 +55,7 @@ AtmosphereSource read_atmosphere(const config::Node& node, const std::filesystem
 /// \param surface  for the names of the user's spectra
 RenderSettings read_render(const config::Node& node, const SurfaceSettings& surface);
 std::vector<Acquisition> read_acquisitions(const config::Node& node, const std::filesystem::path& folder);
+std::vector<Mosaic> read_mosaics(const config::Node& node, const std::vector<Acquisition>& acquisitions);
 Products read_products(const config::Node& node);
 
 /// The file a key names, absolute; reports a file that does not exist. Empty when the key is absent.

@@ -107,6 +107,7 @@ Scenario load(const fs::path& path) {
     s.atmosphere = read_atmosphere(root.child("atmosphere"), folder);
     s.render = read_render(root.child("render"), s.surface);
     s.acquisitions = read_acquisitions(root.required_child("acquisitions"), folder);
+    s.mosaics = read_mosaics(root.child("mosaics"), s.acquisitions);
     s.products = read_products(root.child("products"));
     root.finish();
     document.throw_if_any();

@@ -150,6 +150,13 @@ struct Products {
     bool native = false;  ///< files as the users of the instrument know them
 };
 
+/// Several images of one sensor, merged on the map.
+struct Mosaic {
+    enum class Rule { NearestNadir, Latest, Earliest } rule = Rule::NearestNadir;
+    std::string id;
+    std::vector<std::string> of;  ///< ids of acquisitions
+};
+
 /// All that the user asked for, fully checked by load(): files exist, sensors are known, numbers are in range.
 struct Scenario {
     std::filesystem::path path;
@@ -167,6 +174,7 @@ struct Scenario {
     AtmosphereSource atmosphere;
     RenderSettings render;
     std::vector<Acquisition> acquisitions;
+    std::vector<Mosaic> mosaics;
     Products products;
     std::uint64_t seed = 1;
     std::vector<std::string> notes;  ///< what whoever opened the inputs found worth a warning

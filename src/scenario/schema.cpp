@@ -482,6 +482,20 @@ constexpr const char* kSchema = R"json({
         }
       }
     },
+    "mosaics": {
+      "type": "array",
+      "description": "images of one sensor merged on the map",
+      "items": {
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["id", "of"],
+        "properties": {
+          "id": {"$ref": "#/$defs/name"},
+          "of": {"type": "array", "minItems": 2, "uniqueItems": true, "items": {"type": "string"}, "description": "ids of acquisitions"},
+          "rule": {"enum": ["nearest_nadir", "latest", "earliest"], "description": "default: nearest_nadir"}
+        }
+      }
+    },
     "products": {
       "type": "array",
       "minItems": 1,

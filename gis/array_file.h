@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// Named arrays on named dimensions, as netCDF and HDF4 files hold them.
+namespace pyroscene::gis {
+
+enum class SampleType { UInt8, Int16, UInt16, Int32, Float32, Float64 };
+
+/// Numbers of one type.
+struct Numbers {
+    SampleType type = SampleType::Float32;
+    std::vector<double> values{};
+};
+using Attribute = std::variant<std::string, Numbers>;
+using Attributes = std::vector<std::pair<std::string, Attribute>>;
+
+/// A numeric array to write, on named dimensions (none: a scalar).
+struct ArrayVariable {
+    std::string name{};  ///< netCDF: "group/name" for one in a group
+    std::vector<std::string> dimensions{};
+    std::string unit{}, long_name{};
+    std::vector<double> values{};  ///< row-major; what the type cannot hold is an error of the caller
+    SampleType type = SampleType::Float32;
+    std::optional<double> fill{};  ///< _FillValue
+    Attributes attributes{};
+};
+
+struct ArrayFile {
+    std::vector<std::pair<std::string, std::size_t>> dimensions;
+    std::vector<ArrayVariable> variables;
+    std::map<std::string, std::string> attributes;  ///< of the file
+};
+
+/// Size of a variable by its dimensions. Throws a runtime error with `subject` when it has not as many values, or a dimension
+/// that the file does not know.
+std::vector<std::size_t> checked_shape(const ArrayFile& file, const ArrayVariable& variable, const std::string& subject);
+
+}  // namespace pyroscene::gis

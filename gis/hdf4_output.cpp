@@ -1,0 +1,118 @@
+#include "gis/hdf4_output.h"
+
+#include <cstdint>
+
+#include <fmt/format.h>
+#include <hdf/mfhdf.h>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace pyroscene::gis {
+namespace {
+
+/// Calls `f` with a value of the C++ type and HDF4's number of it.
+template <class F>
+auto with_type(SampleType type, const F& f) {
+    switch (type) {
+        case SampleType::UInt8:
+            return f(std::uint8_t{}, DFNT_UINT8);
+        case SampleType::Int16:
+            return f(std::int16_t{}, DFNT_INT16);
+        case SampleType::UInt16:
+            return f(std::uint16_t{}, DFNT_UINT16);
+        case SampleType::Int32:
+            return f(std::int32_t{}, DFNT_INT32);
+        case SampleType::Float32:
+            return f(float{}, DFNT_FLOAT32);
+        case SampleType::Float64:
+            break;
+    }
+    return f(double{}, DFNT_FLOAT64);
+}
+
+void require(bool done, const std::string& subject, const std::string& what) {
+    if (!done) throw runtime_error(subject, "cannot be written: " + what);
+}
+
+bool set_text(::int32 owner, const std::string& name, const std::string& text) {
+    return text.empty() ||
+           SDsetattr(owner, name.c_str(), DFNT_CHAR8, static_cast<::int32>(text.size()), text.c_str()) != FAIL;
+}
+
+bool set_attribute(::int32 owner, const std::string& name, const Attribute& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) return set_text(owner, name, *text);
+    const auto& numbers = std::get<Numbers>(value);
+    return with_type(numbers.type, [&](auto sample, ::int32 type) {
+        const std::vector<decltype(sample)> typed(numbers.values.begin(), numbers.values.end());
+        return SDsetattr(owner, name.c_str(), type, static_cast<::int32>(typed.size()), typed.data()) != FAIL;
+    });
+}
+
+/// Opened data set, closed at the end.
+struct DataSet {
+    ::int32 id = FAIL;
+    explicit DataSet(::int32 opened) : id(opened) {}
+    DataSet(const DataSet&) = delete;
+    DataSet& operator=(const DataSet&) = delete;
+    ~DataSet() { SDendaccess(id); }
+};
+
+void write_variable(::int32 file_id, const ArrayFile& file, const ArrayVariable& v, const std::string& subject) {
+    const auto shape = checked_shape(file, v, subject);
+    std::vector<::int32> edges(shape.begin(), shape.end()), start(shape.size(), 0);
+    with_type(v.type, [&](auto sample, ::int32 type) {
+        using Sample = decltype(sample);
+        const DataSet set(SDcreate(file_id, v.name.c_str(), type, static_cast<::int32>(edges.size()), edges.data()));
+        require(set.id != FAIL, subject, v.name);
+        for (std::size_t k = 0; k < edges.size(); ++k)
+            require(SDsetdimname(SDgetdimid(set.id, static_cast<intn>(k)), v.dimensions[k].c_str()) != FAIL, subject,
+                    v.name);
+        comp_info deflate{};
+        deflate.deflate.level = 1;
+        require(SDsetcompress(set.id, COMP_CODE_DEFLATE, &deflate) != FAIL, subject, v.name);
+        bool done = set_text(set.id, "long_name", v.long_name) && set_text(set.id, "units", v.unit);
+        if (v.fill) {
+            Sample fill = static_cast<Sample>(*v.fill);
+            done = done && SDsetfillvalue(set.id, &fill) != FAIL;
+        }
+        for (const auto& [key, value] : v.attributes) done = done && set_attribute(set.id, key, value);
+        std::vector<Sample> typed(v.values.size());
+        for (std::size_t i = 0; i < typed.size(); ++i) typed[i] = static_cast<Sample>(v.values[i]);
+        done = done && SDwritedata(set.id, start.data(), nullptr, edges.data(), typed.data()) != FAIL;
+        require(done, subject, v.name);
+    });
+}
+
+/// Opened file, closed at the end or by close().
+class File {
+public:
+    explicit File(const std::filesystem::path& path) : id_(SDstart(path.c_str(), DFACC_CREATE)) {}
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    ~File() { close(); }
+    [[nodiscard]] ::int32 id() const { return id_; }
+    bool close() {
+        const bool done = id_ == FAIL || SDend(id_) != FAIL;
+        id_ = FAIL;
+        return done;
+    }
+
+private:
+    ::int32 id_;
+};
+
+}  // namespace
+
+void write_hdf4(const std::filesystem::path& path, const ArrayFile& file) {
+    const std::string subject = path.string();
+    AtomicFile target(path);
+    File out(target.path());
+    require(out.id() != FAIL, subject, "HDF4 cannot create it");
+    for (const auto& [name, text] : file.attributes) require(set_text(out.id(), name, text), subject, name);
+    for (const auto& variable : file.variables) write_variable(out.id(), file, variable, subject);
+    require(out.close(), subject, "HDF4 cannot close it");
+    target.commit();
+}
+
+}  // namespace pyroscene::gis
