@@ -179,8 +179,6 @@ std::string slope_note(const std::filesystem::path& raster, bool says_percent) {
 
 }  // namespace
 
-bool is_in_memory(const std::filesystem::path& name) { return name.string().starts_with(kMemory); }
-
 Landscape open_landscape(const std::filesystem::path& file, const std::string& crs) {
     const std::string subject = file.string();
     Landscape land;

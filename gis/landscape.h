@@ -30,7 +30,4 @@ Landscape open_landscape(const std::filesystem::path& file, const std::string& c
 std::filesystem::path raster_of_codes(const Landscape& landscape, const std::map<int, double>& value_of_code,
                                       const std::string& unit);
 
-/// True for names of rasters in memory.
-bool is_in_memory(const std::filesystem::path& name);
-
 }  // namespace pyroscene::gis

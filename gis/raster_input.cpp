@@ -29,6 +29,8 @@ BandInfo band_info(GDALRasterBand& band) {
 
 }  // namespace
 
+bool is_in_memory(const std::filesystem::path& name) { return name.string().starts_with("/vsimem/"); }
+
 RasterInfo read_info(const std::filesystem::path& path) {
     const DatasetPtr dataset = open_raster(path);
     RasterInfo info;

@@ -37,6 +37,9 @@ struct RasterInfo {
     std::map<std::string, std::string> metadata;
 };
 
+/// True for names of rasters that other readers keep in memory (landscape.h, wrf_sfire.h).
+bool is_in_memory(const std::filesystem::path& name);
+
 /// Opens anything GDAL reads. Throws an input error: missing file, not a raster, no georeference.
 RasterInfo read_info(const std::filesystem::path& path);
 

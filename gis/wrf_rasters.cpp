@@ -157,8 +157,6 @@ std::filesystem::path wrf_arrival(const WrfSfire& wrf, double epoch_unix_s) {
     return name;
 }
 
-bool is_in_memory(const std::filesystem::path& name) { return name.string().starts_with(kMemory); }
-
 double wrf_integral(const WrfSfire& wrf, const WrfMoment& moment, const std::string& variable, WrfGrid grid) {
     const Extent e = extent(wrf, grid);
     const WrfBand band{&moment, {variable}, 0.0};

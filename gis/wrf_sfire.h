@@ -63,9 +63,6 @@ std::filesystem::path wrf_raster(const WrfSfire& wrf, const std::string& name, c
 /// come but for the next cell, whose time goes on from those behind it. Throws an input error when the fire is older than the epoch.
 std::filesystem::path wrf_arrival(const WrfSfire& wrf, double epoch_unix_s);
 
-/// True for the names that the two functions above return.
-bool is_in_memory(const std::filesystem::path& name);
-
 /// Sum over the grid of a variable times the area of a cell (W for fluxes).
 double wrf_integral(const WrfSfire& wrf, const WrfMoment& moment, const std::string& variable, WrfGrid grid);
 
