@@ -8,11 +8,11 @@ namespace pyroscene::render {
 namespace {
 
 constexpr double kHot_K = 1.0;         // above ambient: a scar that still glows
-constexpr double kBrightLight = 0.01;  // of the brightest cell: less is a smooth halo, which few rays hold
+constexpr double kBrightLight = 1e-4;  // of the brightest cell: the wide halo of a fire holds a few per cent of its light
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Standard errors of the area of flaming and of hot cells in a square of kErrorSquare_m, or in a pixel that is larger.
-constexpr double kFlamingError = 0.0025, kHotError = 0.01, kErrorSquare_m = 500.0;
+constexpr double kFlamingError = 0.002, kHotError = 0.01, kErrorSquare_m = 500.0;
 constexpr double kMostPerCell = 40.0;
 
 double error_of_pixel(double error, double area_m2) {

@@ -121,9 +121,9 @@ TEST(LargePixel, SpendsRaysOnFireOnly) {
     std::atomic<long> rays{0};
     const Instrument camera{.pixel_m = 1050.0, .west_m = 47.3, .south_m = 61.9};
     (void)render::render_image(scene.scene(), nullptr, camera.request(&rays));
-    // As dense everywhere as where it flames: 16 cells to 0.25 % need sqrt(2/3) / (0.0025 sqrt 16) = k^1.5, a point in every
+    // As dense everywhere as where it flames: 16 cells to 0.2 % need sqrt(2/3) / (0.002 sqrt 16) = k^1.5, a point in every
     // (30 m / k)^2.
-    const double everywhere = std::pow(1050.0 / 30.0 * std::pow(std::sqrt(2.0 / 3.0) / (0.0025 * 4.0), 2.0 / 3.0), 2);
+    const double everywhere = std::pow(1050.0 / 30.0 * std::pow(std::sqrt(2.0 / 3.0) / (0.002 * 4.0), 2.0 / 3.0), 2);
     EXPECT_LT(static_cast<double>(rays), 0.08 * everywhere);
     TestScene cold({.cols = 40, .rows = 40, .cell_m = 30.0, .ground_K = 300.0, .lambda_um = {3.96}});
     rays = 0;

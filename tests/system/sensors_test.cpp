@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "gis/crs.h"
 #include "radiometry/planck.h"
 #include "sensors/detector.h"
 #include "system/support.h"
@@ -21,7 +22,7 @@ MapGrid square_map(double edge_m, double cell_m, const std::string& crs = "EPSG:
     grid.cell_m = cell_m;
     grid.west_m = 700000.0;
     grid.north_m = 5184000.0;
-    grid.crs_wkt = crs;
+    grid.crs_wkt = gis::parse_map_crs(crs, "map").wkt;
     return grid;
 }
 
@@ -132,8 +133,8 @@ geometry:
   groups:
     main: {{nx: {0}, ny: {0}, focal_length_mm: 100.0, pixel_pitch_um: {1}}}
 psf:
-  along_scan: {{shape: gaussian, fwhm_samples: 1.1}}
-  along_track: {{shape: gaussian, fwhm_samples: 1.1}}
+  along_scan: {{shape: box, width_samples: 1.0}}
+  along_track: {{shape: box, width_samples: 1.0}}
 bands:
 - {{id: MWIR, group: main, center_um: 3.95, edges_um: [3.9, 4.0], srf: nominal, srf_shape: boxcar,
    noise: {{kind: nedt, value_k: 0.1, at_k: 300}}}}
@@ -154,7 +155,7 @@ TEST(OneFire, HasTheSamePowerAtEveryResolution) {
                },
                {{"time_s", "0"}});
     std::string acquisitions;
-    const std::vector<std::pair<double, int>> cameras{{6.0, 300}, {30.0, 72}, {150.0, 24}, {800.0, 10}};
+    const std::vector<std::pair<double, int>> cameras{{3.0, 400}, {30.0, 72}, {150.0, 24}, {800.0, 10}};
     for (const auto& [pixel_m, edge_px] : cameras) {
         std::ofstream(folder / fmt::format("camera{:g}.yaml", pixel_m)) << camera_of(pixel_m, edge_px);
         acquisitions += fmt::format(
