@@ -185,12 +185,16 @@ void write_geolocation(const GroupJob& job, const std::vector<double>& planes) {
 /// What the detector makes of the noise-free image.
 struct Measured {
     Buffer<float> radiance_W_m2_sr_um;    ///< [band][line][sample]
-    std::vector<std::uint8_t> saturated;  ///< same shape, 1 = clipped
+    std::vector<std::uint8_t> saturated;  ///< same shape, 1 = clipped, 2 = folded over; of one band when no truth is wanted
 };
 
-Measured measure(const GroupJob& job, const RadianceImage& image, RunReport& report) {
-    Measured out{image.radiance_W_m2_sr_um, std::vector<std::uint8_t>(image.radiance_W_m2_sr_um.size(), 0)};
-    const std::size_t n = out.saturated.size() / job.bands.size();
+/// Takes the noise-free radiance away when no truth is wanted, to have a cube only once.
+Measured measure(const GroupJob& job, RadianceImage& image, RunReport& report) {
+    const bool truth = job.scenario.products.truth;
+    const std::size_t n = image.coverage.size();
+    Measured out;
+    out.saturated.resize(truth ? image.radiance_W_m2_sr_um.size() : n);
+    out.radiance_W_m2_sr_um = truth ? image.radiance_W_m2_sr_um : std::move(image.radiance_W_m2_sr_um);
     for (std::size_t k = 0; k < job.bands.size(); ++k) {
         auto band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
         if (!job.scenario.render.noise) {
@@ -201,7 +205,7 @@ Measured measure(const GroupJob& job, const RadianceImage& image, RunReport& rep
         const RandomKey key{job.scenario.seed, stream_id(stream.c_str()), 0};
         sensors::add_stray_light(job.sensor.stray, image.samples, std::span(out.radiance_W_m2_sr_um).subspan(k * n, n));
         const auto count = sensors::apply_detector(band, key, std::span(out.radiance_W_m2_sr_um).subspan(k * n, n),
-                                                   std::span(out.saturated).subspan(k * n, n));
+                                                   std::span(out.saturated).subspan(truth ? k * n : 0, n));
         report.count(fmt::format("saturated_pixels/{}/{}", job.acquisition.id, band.id), count);
     }
     return out;
