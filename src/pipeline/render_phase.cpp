@@ -74,8 +74,10 @@ constexpr std::array<std::array<const char*, 2>, 9> kGeolocationBands{{{"longitu
                                                                        {"range", "m"},
                                                                        {"time", "s"}}};
 
+/// \param surroundings_m  height of the ground beyond the map, which pixels past it show; nothing: such pixels have no place
 std::vector<double> geolocate(const RadianceImage& image, const sensors::ImageGeometry& geometry,
-                              const sensors::ImageChords& chords, const LocalSun& sun) {
+                              const sensors::ImageChords& chords, const LocalSun& sun,
+                              std::optional<double> surroundings_m) {
     const std::size_t n = static_cast<std::size_t>(image.samples) * static_cast<std::size_t>(image.lines);
     std::vector<double> planes(n * kGeolocationBands.size(), std::nan(""));
     tbb::parallel_for(0, image.lines, [&](int line) {
@@ -83,10 +85,13 @@ std::vector<double> geolocate(const RadianceImage& image, const sensors::ImageGe
         for (int sample = 0; sample < image.samples; ++sample) {
             const std::size_t i =
                 static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
-            if (!(image.coverage[i] > 0.0F)) continue;
+            const bool on_map = image.coverage[i] > 0.0F;
+            if (!on_map && (!surroundings_m || chords.open() || sensors::pixel_deleted(geometry, sample, line))) continue;
             const auto position = sensors::scan_position_of(geometry, sample, line);
             const auto chord = scan.at(position.u, position.v);
-            const Vec3 hit_m{image.hit_x_m[i], image.hit_y_m[i], image.hit_z_m[i]}, way_m = chord.bottom_m - chord.top_m;
+            const Vec3 hit_m = on_map ? Vec3{image.hit_x_m[i], image.hit_y_m[i], image.hit_z_m[i]}
+                                      : Vec3{0.0, 0.0, surroundings_m.value_or(0.0)};
+            const Vec3 way_m = chord.bottom_m - chord.top_m;
             const double f = chords.open() ? dot(hit_m - chord.top_m, way_m) / dot(way_m, way_m)
                                            : (chord.top_m.z - hit_m.z) / (chord.top_m.z - chord.bottom_m.z);
             const double lon = std::lerp(chord.top_lon_deg, chord.bottom_lon_deg, f);
@@ -94,7 +99,7 @@ std::vector<double> geolocate(const RadianceImage& image, const sensors::ImageGe
             const Vec3 v = chord.view_enu;
             const double values[] = {lon,
                                      lat,
-                                     image.hit_z_m[i],
+                                     hit_m.z,
                                      std::atan2(std::hypot(v.x, v.y), v.z) / kDegree_rad,
                                      positive_degrees(std::atan2(v.x, v.y)),
                                      sun.zenith_rad(lat, lon) / kDegree_rad,
@@ -465,7 +470,8 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     report_image(job, image, scene, chords.open(), report);
 
     const PhaseTimer timer(report, "render/write");
-    const auto planes = geolocate(image, job.geometry, chords, sun);
+    const auto planes =
+        geolocate(image, job.geometry, chords, sun, scene.surroundings ? std::optional(in.mean_height_m) : std::nullopt);
     const auto points = control_points(image, planes);
     write_geolocation(job, planes);
     if (monitor.is_cancelled()) throw Cancelled();

@@ -146,14 +146,14 @@ TEST(Load, ProductsAreThoseNamed) {
     const ScenarioFolder folder;
     const Products p = folder.load(shortest("products: [frp, radiance]\n")).products;
     EXPECT_TRUE(p.frp && p.radiance);
-    EXPECT_FALSE(p.brightness_temperature || p.ortho || p.truth || p.fractions || p.quicklook);
+    EXPECT_FALSE(p.brightness_temperature || p.ortho || p.truth || p.fractions || p.quicklook || p.report || p.native);
     EXPECT_EQ(folder.problems(shortest("products: []\n")),
               Lines{"8: products: expected a list of names; leave the key out for all"});
     EXPECT_EQ(folder.problems(shortest("products: all\n")),
               Lines{"8: products: expected a list of names; leave the key out for all"});
     EXPECT_EQ(folder.problems(shortest("products: [xyzxyzxyz]\n")),
               Lines{"8: products: 'xyzxyzxyz' is none of radiance, brightness_temperature, ortho, truth, fractions, frp, "
-                    "quicklook, report"});
+                    "quicklook, report, native"});
 }
 
 TEST(Load, MissingScenarioIsAnInputError) {
