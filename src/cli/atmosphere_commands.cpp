@@ -8,7 +8,7 @@
 
 #include "pipeline/atmosphere_deck.h"
 #include "pipeline/import_atmosphere.h"
-#include "pipeline/wrf_inputs.h"
+#include "pipeline/load_scenario.h"
 
 namespace pyroscene::cli {
 namespace {

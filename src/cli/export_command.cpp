@@ -10,7 +10,7 @@
 #include "base/files.h"
 #include "cli/progress.h"
 #include "pipeline/flame_export.h"
-#include "pipeline/wrf_inputs.h"
+#include "pipeline/load_scenario.h"
 
 namespace pyroscene::cli {
 namespace {

@@ -22,8 +22,8 @@
 #include "cli/progress.h"
 #include "cli/sensors_command.h"
 #include "cli/unmix_command.h"
+#include "pipeline/load_scenario.h"
 #include "pipeline/run.h"
-#include "pipeline/wrf_inputs.h"
 
 namespace {
 

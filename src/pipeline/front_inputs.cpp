@@ -51,8 +51,7 @@ std::optional<Raster<float>> spread_rate(const Scenario& s, const MapGrid& grid,
 
 std::optional<Raster<float>> residence_time(const Scenario& s, const MapGrid& grid) {
     const auto& cover = s.inputs.cover;
-    if (s.fire.flames.residence_time_s || !cover || (cover->table != "fbfm13" && cover->table != "fbfm40"))
-        return std::nullopt;
+    if (s.fire.flames.residence_time_s || !cover || !scenario::is_shipped_fuel_table(cover->table)) return std::nullopt;
     const auto times_s = fuel_residence_times_s(cover->table);
     const auto codes = gis::read_classes(cover->raster.files.front(),
                                          cover->raster.bands.empty() ? 1 : cover->raster.bands.front(), grid, -9999);
@@ -68,7 +67,7 @@ std::optional<Raster<float>> residence_time(const Scenario& s, const MapGrid& gr
 std::map<int, double> fuel_residence_times_s(const std::string& table) {
     std::map<int, double> times_s;
     for (const auto& [number, model] : spread::standard_fuel_models())
-        if ((number <= kLastAndersonModel) == (table == "fbfm13"))
+        if (table == "fbfm53" || (number <= kLastAndersonModel) == (table == "fbfm13"))
             times_s[number] = fire::residence_time_s(model.characteristic_surface_to_volume_per_m());
     return times_s;
 }

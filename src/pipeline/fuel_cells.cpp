@@ -25,7 +25,7 @@ int first_band(const scenario::RasterSource& source) { return source.bands.empty
 spread::FuelModels fuel_models(const FuelSource& source) {
     constexpr int kLastAndersonModel = 13;
     spread::FuelModels models;
-    const bool shipped = source.table == "fbfm13" || source.table == "fbfm40" || source.table == "fbfm53";
+    const bool shipped = scenario::is_shipped_fuel_table(source.table);
     if (!shipped) models = spread::read_fuel_models(source.table);
     for (const auto& [number, model] : spread::standard_fuel_models())
         if (source.table == "fbfm53" || (shipped && (number <= kLastAndersonModel) == (source.table == "fbfm13")))

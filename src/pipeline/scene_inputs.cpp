@@ -10,9 +10,9 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "gis/wrf_sfire.h"
 #include "pipeline/arrival_model.h"
 #include "pipeline/front_inputs.h"
+#include "pipeline/fuel_cells.h"
 #include "pipeline/spread_model.h"
 #include "radiometry/surfaces.h"
 
@@ -44,16 +44,21 @@ Raster<std::uint8_t> cover_materials(const Scenario& scenario, const MapGrid& gr
     if (!scenario.inputs.cover) return cover;
     const auto& source = *scenario.inputs.cover;
     const auto codes = gis::read_classes(source.raster.files.front(), first_band(source.raster), grid, -9999);
-    const auto table = radiometry::load_fuel_surfaces(source.table == "fbfm13" || source.table == "fbfm40"
-                                                          ? data_folder() / "fuel" / "surface_of_fuel.csv"
-                                                          : std::filesystem::path(source.table));
-    const bool shipped = source.table == "fbfm13" || source.table == "fbfm40";
+    const bool shipped = scenario::is_shipped_fuel_table(source.table);
+    const auto table = radiometry::load_fuel_surfaces(shipped ? data_folder() / "fuel" / "surface_of_fuel.csv"
+                                                              : std::filesystem::path(source.table));
+    constexpr int kLastAndersonModel = 13;
     std::map<int, std::uint8_t> index_of_code;
     for (std::size_t i = 0; i < codes.values.size(); ++i) {
         const int code = codes.values[i];
         auto known = index_of_code.find(code);
         if (known == index_of_code.end()) {
-            auto name = radiometry::surface_of_fuel(table, shipped ? source.table : "", code);
+            auto name = radiometry::surface_of_fuel(table,
+                                                    !shipped                     ? ""
+                                                    : source.table != "fbfm53"   ? source.table
+                                                    : code <= kLastAndersonModel ? "fbfm13"
+                                                                                 : "fbfm40",
+                                                    code);
             if (name.empty()) name = scenario.surface.unburned;
             auto position = std::find(names.begin(), names.end(), name);
             if (position == names.end()) position = names.insert(names.end(), name);
@@ -166,6 +171,8 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     if (in.cover) sources.push_back(&in.cover->raster);
     std::set<std::filesystem::path> unique;
     if (in.wrf_sfire) unique.insert(in.wrf_sfire->files.begin(), in.wrf_sfire->files.end());
+    if (in.landscape)
+        for (const auto& file : files_of(in.landscape->fuel)) unique.insert(file);
     if (in.spread)
         for (const auto& file : spread_files(*in.spread)) unique.insert(file);
     if (in.arrival_model)

@@ -10,7 +10,4 @@ namespace pyroscene::pipeline {
 /// is. Input errors: those of gis::open_wrf_sfire, no heat flux or terrain, no record after the scenario's start.
 scenario::Scenario with_wrf_inputs(scenario::Scenario scenario);
 
-/// scenario::load(), then with_wrf_inputs().
-inline scenario::Scenario load_scenario(const std::filesystem::path& file) { return with_wrf_inputs(scenario::load(file)); }
-
 }  // namespace pyroscene::pipeline

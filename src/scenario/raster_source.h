@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pyroscene::scenario {
@@ -12,5 +13,10 @@ struct RasterSource {
     std::vector<double> times_s;               ///< one per frame; empty = band metadata time_s
     int line = 0;                              ///< of the key in the scenario, for messages
 };
+
+/// Codes whose fuel models ship: Anderson, Scott and Burgan, both.
+inline bool is_shipped_fuel_table(const std::string& name) {
+    return name == "fbfm13" || name == "fbfm40" || name == "fbfm53";
+}
 
 }  // namespace pyroscene::scenario

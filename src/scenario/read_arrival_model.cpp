@@ -42,7 +42,7 @@ UnitRaster read_unit_raster(const config::Node& node, const fs::path& folder, co
 
 }  // namespace
 
-ArrivalModelSource read_arrival_model(const config::Node& node, const fs::path& folder) {
+ArrivalModelSource read_arrival_model(const config::Node& node, const fs::path& folder, bool has_landscape) {
     ArrivalModelSource source;
     if (!node.is_map()) {
         node.finish();
@@ -66,7 +66,8 @@ ArrivalModelSource read_arrival_model(const config::Node& node, const fs::path& 
         source.flame_length = read(key, usual->length, {"m", "ft"});
     if (const auto key = node.child("spread_rate"); key.present())
         source.spread_rate = read(key, usual->rate, {"m/s", "m/min", "ft/min", "chain/h"});
-    source.fuel = read_fuel(node.required_child("fuel"), folder);
+    if (const auto fuel = node.child("fuel"); fuel.present() || !has_landscape)
+        source.fuel = read_fuel(node.required_child("fuel"), folder);
     source.fuel_moisture_pct = node.number("fuel_moisture_pct", source.fuel_moisture_pct, Range::between(0.0, 300.0));
     const auto frames = read_fire_frames(node);
     source.frames_s = frames.times_s;

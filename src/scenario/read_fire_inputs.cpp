@@ -56,17 +56,10 @@ double read_mean_over(const config::Node& node, const std::vector<double>& frame
 
 }  // namespace
 
-FuelSource read_fuel(const config::Node& node, const fs::path& folder) {
-    FuelSource source;
-    if (!node.is_map()) {
-        node.finish();
-        return source;
-    }
-    source.raster = read_raster(node, folder);
-    const auto table = node.required_child("table");
+void read_fuel_models(const config::Node& node, const char* table_key, const fs::path& folder, FuelSource& source) {
+    const auto table = node.required_child(table_key);
     source.table = table.as_text("");
-    const bool shipped = source.table == "fbfm13" || source.table == "fbfm40" || source.table == "fbfm53";
-    if (table.is_scalar() && !shipped) {
+    if (table.is_scalar() && !is_shipped_fuel_table(source.table)) {
         if (fs::path(source.table).extension() == ".csv")
             source.table = read_file_name(table, folder).string();
         else
@@ -78,6 +71,14 @@ FuelSource read_fuel(const config::Node& node, const fs::path& folder) {
     if (codes.is_list())
         for (const auto& code : codes.items())
             source.nonburnable.push_back(static_cast<int>(code.as_integer(0, Range::between(-32768, 65535))));
+}
+
+FuelSource read_fuel(const config::Node& node, const fs::path& folder) {
+    FuelSource source;
+    if (node.is_map()) {
+        source.raster = read_raster(node, folder);
+        read_fuel_models(node, "table", folder, source);
+    }
     node.finish();
     return source;
 }

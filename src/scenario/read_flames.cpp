@@ -62,9 +62,7 @@ void read_depth(const config::Node& node, fire::FlameRelations& flames) {
     node.finish();
 }
 
-bool has_fuel_models(const Inputs& inputs) {
-    return inputs.cover && (inputs.cover->table == "fbfm13" || inputs.cover->table == "fbfm40");
-}
+bool has_fuel_models(const Inputs& inputs) { return inputs.cover && is_shipped_fuel_table(inputs.cover->table); }
 
 }  // namespace
 

@@ -151,10 +151,10 @@ CoverSource read_cover(const config::Node& node, const fs::path& folder) {
 
 std::string read_fuel_table(const config::Node& node, const fs::path& folder) {
     std::string table = node.as_text("");
-    if (!node.is_scalar() || table == "fbfm13" || table == "fbfm40") return table;
+    if (!node.is_scalar() || is_shipped_fuel_table(table)) return table;
     if (table.find('/') != std::string::npos || fs::path(table).extension() == ".csv")
         return read_file_name(node, folder).string();
-    node.report(fmt::format("'{}' is none of fbfm13, fbfm40 or a CSV file", table));
+    node.report(fmt::format("'{}' is none of fbfm13, fbfm40, fbfm53 or a CSV file", table));
     return table;
 }
 
@@ -167,10 +167,13 @@ RasterSource read_raster_series(const config::Node& node, const fs::path& folder
 Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     Inputs inputs;
     if (!node.present()) return inputs;
-    const config::Node wrf = node.child("wrf_sfire"), spread = node.child("spread"), modelled = node.child("arrival_model");
+    const config::Node wrf = node.child("wrf_sfire"), landscape = node.child("landscape"), spread = node.child("spread"),
+                       modelled = node.child("arrival_model");
     if (wrf.present()) inputs.wrf_sfire = read_wrf(wrf, folder);
+    if (landscape.present()) inputs.landscape = read_landscape(landscape, folder);
     const auto given = [&](const char* key) { return wrf.present() ? node.child(key) : node.required_child(key); };
-    if (const auto terrain = given("terrain"); terrain.present() || !wrf.present()) {
+    if (node.has("terrain") || (!wrf.present() && !landscape.present())) {
+        const config::Node terrain = node.required_child("terrain");
         inputs.terrain = read_source(terrain, folder, kStatic);
         terrain.finish();
     }
@@ -182,10 +185,10 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
             if (node.has(key)) node.child(key).report(fmt::format("comes from '{}'; give one of the two", source));
     };
     if (modelled.present()) {
-        inputs.arrival_model = read_arrival_model(modelled, folder);
+        inputs.arrival_model = read_arrival_model(modelled, folder, landscape.present());
         comes_from("arrival_model");
     } else if (spread.present()) {
-        inputs.spread = read_spread(spread, folder);
+        inputs.spread = read_spread(spread, folder, landscape.present());
         comes_from("spread");
     } else {
         if (const auto heat_flux = given("heat_flux"); heat_flux.present() || !wrf.present()) {
@@ -201,6 +204,7 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     if (const auto wind = node.child("wind"); wind.present()) inputs.wind = read_wind(wind, folder);
     if (const auto cover = node.child("cover"); cover.present()) inputs.cover = read_cover(cover, folder);
     if (const auto plume = node.child("plume"); plume.present()) inputs.plume = read_plume_source(plume, folder);
+    if (inputs.landscape) add_landscape(*inputs.landscape, inputs);
     node.finish();
     return inputs;
 }

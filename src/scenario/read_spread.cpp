@@ -103,18 +103,20 @@ void read_moisture(const config::Node& node, const fs::path& folder, SpreadSourc
 
 }  // namespace
 
-SpreadSource read_spread(const config::Node& node, const fs::path& folder) {
+SpreadSource read_spread(const config::Node& node, const fs::path& folder, bool has_landscape) {
     SpreadSource source;
     source.line = node.line();
     if (!node.is_map()) {
         node.finish();
         return source;
     }
-    source.fuel = read_fuel(node.required_child("fuel"), folder);
+    if (const auto fuel = node.child("fuel"); fuel.present() || !has_landscape)
+        source.fuel = read_fuel(node.required_child("fuel"), folder);
     source.ignition = read_all_shapes(node.required_child("ignition"), folder, true);
     source.barriers = read_all_shapes(node.child("barriers"), folder, false);
     read_moisture(node.required_child("moisture"), folder, source);
     const auto canopy = node.child("canopy");
+    source.has_canopy = canopy.present();
     source.canopy_cover = read_quantity(canopy.child("cover"), folder, 0.0, Range::between(0.0, 1.0));
     source.canopy_height_m = read_quantity(canopy.child("height_m"), folder, 0.0, Range::between(0.0, 150.0));
     source.crown_ratio = canopy.number("crown_ratio", source.crown_ratio, Range::between(0.0, 1.0));

@@ -26,7 +26,7 @@ fire::FireParameters read_fire(const config::Node& node);
 RasterSource read_raster(const config::Node& node, const std::filesystem::path& folder);
 /// Rasters that may change with time, so many bands for each moment; the caller calls finish().
 RasterSource read_raster_series(const config::Node& node, const std::filesystem::path& folder, std::size_t bands_per_frame);
-ArrivalModelSource read_arrival_model(const config::Node& node, const std::filesystem::path& folder);
+ArrivalModelSource read_arrival_model(const config::Node& node, const std::filesystem::path& folder, bool has_landscape);
 /// The key `fuel` of a fire that the program computes.
 FuelSource read_fuel(const config::Node& node, const std::filesystem::path& folder);
 /// Times of the frames of such a fire: frames_s, or duration_s and frame_step_s; mean_over_s.
@@ -38,7 +38,14 @@ FireFrames read_fire_frames(const config::Node& node);
 WrfSource read_wrf(const config::Node& node, const std::filesystem::path& folder);
 /// The code scheme of fuel classes: fbfm13, fbfm40 or a CSV file. Reports anything else.
 std::string read_fuel_table(const config::Node& node, const std::filesystem::path& folder);
-SpreadSource read_spread(const config::Node& node, const std::filesystem::path& folder);
+/// \param has_landscape  which gives fuel (and canopy) where the node does not
+SpreadSource read_spread(const config::Node& node, const std::filesystem::path& folder, bool has_landscape);
+LandscapeSource read_landscape(const config::Node& node, const std::filesystem::path& folder);
+/// Gives the inputs that are not there the landscape's bands.
+void add_landscape(const LandscapeSource& landscape, Inputs& inputs);
+/// What fuel codes mean: a shipped table or a CSV file under `table_key`, `custom`, `nonburnable`.
+void read_fuel_models(const config::Node& node, const char* table_key, const std::filesystem::path& folder,
+                      FuelSource& source);
 /// Flame height, tilt, fireline intensity and front depth: the part of `fire` that read_flames.cpp reads.
 void read_flame_relations(const config::Node& fire, fire::FireParameters& parameters);
 /// Reports inputs that the chosen flame relations need and do not have, and the reverse.

@@ -13,6 +13,7 @@
 #include "fire/plume.h"
 #include "fire/state.h"
 #include "scenario/arrival_model_source.h"
+#include "scenario/landscape_source.h"
 #include "scenario/raster_source.h"
 #include "scenario/spread_source.h"
 #include "scenario/wrf_source.h"
@@ -27,7 +28,7 @@ struct WindSource {
 
 struct CoverSource {
     RasterSource raster;
-    std::string table;  ///< fbfm13, fbfm40, or a CSV file: code,surface
+    std::string table;  ///< fbfm13, fbfm40, fbfm53 (both), or a CSV file: code,surface
 };
 
 /// A three-dimensional field above the fire: one band per level.
@@ -43,6 +44,7 @@ struct PlumeSource {
 struct Inputs {
     RasterSource terrain, heat_flux;  ///< no heat flux with `spread` or `arrival_model`; neither need be with `wrf_sfire`
     std::optional<WrfSource> wrf_sfire;
+    std::optional<LandscapeSource> landscape;
     std::optional<SpreadSource> spread;
     std::optional<ArrivalModelSource> arrival_model;
     std::optional<RasterSource> fuel_load, arrival;

@@ -29,10 +29,25 @@ constexpr const char* kSchema = R"json({
     "inputs": {
       "type": "object",
       "additionalProperties": false,
-      "oneOf": [{"required": ["terrain", "heat_flux"], "not": {"required": ["wrf_sfire"]}}, {"required": ["wrf_sfire"]},
-                {"required": ["terrain", "spread"]}, {"required": ["terrain", "arrival_model"]}],
+      "anyOf": [{"required": ["terrain"]}, {"required": ["landscape"]}, {"required": ["wrf_sfire"]}],
+      "oneOf": [{"required": ["heat_flux"], "not": {"required": ["wrf_sfire"]}}, {"required": ["wrf_sfire"]},
+                {"required": ["spread"]}, {"required": ["arrival_model"]}],
       "properties": {
         "terrain": {"$ref": "#/$defs/static", "description": "elevation, m"},
+        "landscape": {
+          "description": "terrain, fuel and canopy in one file of FARSITE (LCP) or LANDFIRE (GeoTIFF); inputs beside it go before its bands",
+          "type": "object",
+          "additionalProperties": false,
+          "required": ["file", "scheme"],
+          "properties": {
+            "file": {"type": "string"},
+            "scheme": {"type": "string", "description": "what the fuel codes count: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
+              "examples": ["fbfm13", "fbfm40", "fbfm53"]},
+            "custom": {"type": "string", "description": "CSV file of more fuel models"},
+            "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"},
+            "crs": {"type": "string", "description": "of a file that does not say its own"}
+          }
+        },
         "heat_flux": {"$ref": "#/$defs/series", "description": "sensible heat flux of the surface fire, W m-2"},
         "fuel_load": {"$ref": "#/$defs/series", "description": "fuel load, kg m-2"},
         "wind": {
@@ -62,7 +77,7 @@ constexpr const char* kSchema = R"json({
           "description": "a fire known by the arrival times that FARSITE, FlamMap, ELMFIRE or another program computed",
           "type": "object",
           "additionalProperties": false,
-          "required": ["model", "arrival", "fuel"],
+          "required": ["model", "arrival"],
           "properties": {
             "model": {"enum": ["farsite", "flammap", "elmfire", "pyretechnics", "forefire", "other"]},
             "arrival": {"type": "object", "additionalProperties": false, "required": ["file"],
@@ -118,7 +133,7 @@ constexpr const char* kSchema = R"json({
           "description": "a fire that the program spreads itself, instead of heat_flux, fuel_load, arrival and what a front shows",
           "type": "object",
           "additionalProperties": false,
-          "required": ["fuel", "ignition", "moisture"],
+          "required": ["ignition", "moisture"],
           "properties": {
             "fuel": {
               "description": "fuel model of each cell",
@@ -222,7 +237,7 @@ constexpr const char* kSchema = R"json({
           "properties": {
             "file": {"type": "string"},
             "band": {"$ref": "#/$defs/band"},
-            "table": {"type": "string", "description": "fbfm13, fbfm40 or a CSV file", "examples": ["fbfm13", "fbfm40"]}
+            "table": {"type": "string", "description": "fbfm13, fbfm40, fbfm53 or a CSV file", "examples": ["fbfm13", "fbfm40", "fbfm53"]}
           }
         }
       }

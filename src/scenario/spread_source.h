@@ -36,6 +36,7 @@ struct SpreadSource {
     std::optional<RasterSource> moisture_raster;                           ///< five bands for each moment, per cent
     std::optional<std::filesystem::path> moisture_table;                   ///< CSV: time_s and moistures in per cent
     QuantitySource canopy_cover, canopy_height_m;
+    bool has_canopy = false;  ///< the scenario says something of it
     double crown_ratio = 0.5;
     spread::SpreadRules rules;
     std::vector<double> frames_s;       ///< times of the heat flux, ascending; the last is the end

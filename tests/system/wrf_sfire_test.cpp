@@ -9,7 +9,7 @@
 #include "gis/geodesy.h"
 #include "gis/raster_input.h"
 #include "gis/raster_output.h"
-#include "pipeline/wrf_inputs.h"
+#include "pipeline/load_scenario.h"
 #include "system/support.h"
 
 namespace pyroscene::test {

@@ -115,7 +115,7 @@ TEST(Inputs, CoverNamesAShippedTableOrAFile) {
     const auto said = [&](const std::string& value) { return folder.problems(with_inputs("  cover: " + value + "\n")); };
     EXPECT_EQ(said("{file: classes.tif}"), Lines{"5: inputs.cover: key 'table' is missing"});
     EXPECT_EQ(said("{file: classes.tif, table: landfire}"),
-              Lines{"5: inputs.cover.table: 'landfire' is none of fbfm13, fbfm40 or a CSV file"});
+              Lines{"5: inputs.cover.table: 'landfire' is none of fbfm13, fbfm40, fbfm53 or a CSV file"});
     EXPECT_EQ(said("{file: classes.tif, table: no.csv}"),
               Lines{"5: inputs.cover.table: file 'no.csv' does not exist (" + (folder.path() / "no.csv").string() + ")"});
 }
