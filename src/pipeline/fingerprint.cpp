@@ -90,6 +90,7 @@ std::string fire_text(const Scenario& s) {
     if (!f.scar_of_cover.empty() && s.inputs.cover) out += text(s.inputs.cover->raster);
     out += flames_text(s) + text(s.inputs.terrain) + text(s.inputs.heat_flux);
     if (s.inputs.arrival) out += text(*s.inputs.arrival);
+    if (s.inputs.landscape) out += text(s.inputs.landscape->fuel) + s.inputs.landscape->crs;
     if (s.inputs.spread) out += spread_text(*s.inputs.spread);
     if (s.inputs.arrival_model) out += text(*s.inputs.arrival_model);
     if (s.inputs.wind) {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "gis/raster_input.h"
+#include "pipeline/fingerprint.h"
 #include "pipeline/load_scenario.h"
 #include "pipeline/scene_inputs.h"
 #include "system/support.h"
@@ -76,6 +77,18 @@ TEST_F(LandscapeScenario, FilesAreThoseOnDisk) {
     const auto s = load("files", "  landscape: {file: " + lolo("canyon.lcp") + ", scheme: fbfm40}\n  spread:\n" + kFire);
     const auto files = pipeline::input_files(s);
     EXPECT_EQ(files, std::vector<std::filesystem::path>{lolo("canyon.lcp")});
+}
+
+TEST_F(LandscapeScenario, AnotherSchemeOrPlaceIsAnotherFire) {
+    const auto state = [&](const std::string& name, const std::string& more) {
+        const auto s = load(name, "  landscape: {file: " + lolo("landscape.tif") + ", " + more +
+                                      "}\n  heat_flux: {file: " + lolo("heat_flux.tif") + "}\n");
+        return pipeline::Fingerprints(s).state(0.0);
+    };
+    const auto first = state("a", "scheme: fbfm40");
+    EXPECT_EQ(state("b", "scheme: fbfm40"), first);
+    EXPECT_NE(state("c", "scheme: fbfm53"), first);
+    EXPECT_NE(state("d", "scheme: fbfm40, crs: 'EPSG:32611'"), first);
 }
 
 }  // namespace
