@@ -96,6 +96,7 @@ std::string fire_text(const Scenario& s) {
     if (s.inputs.wind) {
         out += fmt::format("{}|{};", s.inputs.wind->speed_m_s, s.inputs.wind->from_deg);
         if (s.inputs.wind->raster) out += text(*s.inputs.wind->raster);
+        out += s.inputs.wind->table ? "table;" : "";
     }
     return out + fmt::format("{}|{}|{}", s.map_crs.value_or(""), s.map_cell_m.value_or(0.0), s.geoid_undulation_m);
 }

@@ -171,6 +171,7 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     if (in.cover) sources.push_back(&in.cover->raster);
     std::set<std::filesystem::path> unique;
     if (in.wrf_sfire) unique.insert(in.wrf_sfire->files.begin(), in.wrf_sfire->files.end());
+    if (in.wind && in.wind->table) unique.insert(*in.wind->table);
     if (in.landscape)
         for (const auto& file : files_of(in.landscape->fuel)) unique.insert(file);
     if (in.spread)

@@ -61,6 +61,34 @@ WindPair wind_pair(const RasterSource& source, std::size_t frame_count, std::siz
     return pairs[found];
 }
 
+/// Rows of inputs.wind.table.
+struct StationWind {
+    std::vector<double> times_s, speed_m_s, from_deg;
+
+    explicit StationWind(const std::filesystem::path& file) {
+        constexpr double kStrongest_m_s = 100.0, kTurn_deg = 360.0;
+        const auto csv = read_csv(file);
+        times_s = csv.numbers("time_s");
+        speed_m_s = csv.numbers("speed_m_s");
+        from_deg = csv.numbers("from_deg");
+        if (times_s.empty()) throw input_error(csv.path, "has no row");
+        for (std::size_t i = 0; i < times_s.size(); ++i) {
+            const auto subject = fmt::format("{}:{}", csv.path, csv.row_lines[i]);
+            if (!std::isfinite(times_s[i]) || (i > 0 && !(times_s[i] > times_s[i - 1])))
+                throw input_error(subject, fmt::format("times must ascend, found {}", times_s[i]));
+            if (!(speed_m_s[i] >= 0.0 && speed_m_s[i] <= kStrongest_m_s))
+                throw input_error(subject, fmt::format("speed_m_s of {}, expected 0 to {}", speed_m_s[i], kStrongest_m_s));
+            if (!(std::abs(from_deg[i]) <= kTurn_deg))
+                throw input_error(subject, fmt::format("from_deg of {}, expected -360 to 360", from_deg[i]));
+        }
+    }
+    /// The last row at or before a time, else the first.
+    [[nodiscard]] std::size_t row_at(double time_s) const {
+        const auto after = std::upper_bound(times_s.begin(), times_s.end(), time_s);
+        return after == times_s.begin() ? 0 : static_cast<std::size_t>(after - times_s.begin()) - 1;
+    }
+};
+
 }  // namespace
 
 std::vector<FrameSource> frame_bands(const RasterSource& source) {
@@ -91,8 +119,14 @@ gis::Wind wind_at(const scenario::Scenario& scenario, const MapGrid& grid, std::
         const auto pair = wind_pair(*wind->raster, frame_count, frame, time_s);
         return gis::read_wind(pair.file, pair.u_band, pair.v_band, grid);
     }
-    const double speed = wind ? wind->speed_m_s : 0.0;
-    const double from_rad = wind ? wind->from_deg * kDegree_rad : 0.0;
+    double speed = wind ? wind->speed_m_s : 0.0, from_deg = wind ? wind->from_deg : 0.0;
+    if (wind && wind->table) {
+        const StationWind station(*wind->table);
+        const auto row = station.row_at(time_s);
+        speed = station.speed_m_s[row];
+        from_deg = station.from_deg[row];
+    }
+    const double from_rad = from_deg * kDegree_rad;
     const double convergence =
         gis::MapProjection(grid.crs_wkt)
             .convergence_rad(0.5 * (grid.west_m + grid.east_m()), 0.5 * (grid.south_m() + grid.north_m));
@@ -104,6 +138,7 @@ gis::Wind wind_at(const scenario::Scenario& scenario, const MapGrid& grid, std::
 std::vector<double> wind_times_s(const scenario::Scenario& scenario) {
     const auto& wind = scenario.inputs.wind;
     std::vector<double> times_s;
+    if (wind && wind->table) return StationWind(*wind->table).times_s;
     if (!wind || !wind->raster) return times_s;
     const auto pairs = wind_pairs(*wind->raster);
     if (pairs.size() == 1) return times_s;

@@ -17,12 +17,12 @@ struct FrameSource {
 /// Band of a time series: listed, else every band of every file in order, with the time that its metadata say.
 std::vector<FrameSource> frame_bands(const scenario::RasterSource& source);
 
-/// Wind of a moment along the axes of the grid: the pair of bands that holds for a frame, or the one wind of the map, which is given
+/// Wind of a moment along the axes of the grid: the pair of bands that holds for a frame, or the one wind of the map (of a moment, by a station's table), which is given
 /// against true north and turned by the convergence at the centre; calm without any.
 gis::Wind wind_at(const scenario::Scenario& scenario, const MapGrid& grid, std::size_t frame_count, std::size_t frame,
                   double time_s);
 
-/// The times of wind rasters that change, ascending; empty for a wind that does not. Throws an input error for rasters without times.
+/// The times of wind rasters or of a station's rows, ascending; empty for a wind that does not. Throws an input error for rasters without times.
 std::vector<double> wind_times_s(const scenario::Scenario& scenario);
 
 }  // namespace pyroscene::pipeline

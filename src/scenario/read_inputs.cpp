@@ -124,10 +124,16 @@ WindSource read_wind(const config::Node& node, const fs::path& folder) {
     const bool uniform = node.has("speed") || node.has("speed_m_s") || node.has("from_deg");
     const bool raster = node.has("file") || node.has("files");
     for (const char* key : {"file", "files", "bands", "times_s"}) node.ignore(key);
+    if (const auto table = node.child("table"); table.present()) {
+        wind.table = read_file_name(table, folder);
+        if (uniform || raster) table.report("stands alone; give it, rasters, or 'speed' and 'from_deg'");
+        node.finish();
+        return wind;
+    }
     if (uniform && raster) node.report("give rasters or 'speed' and 'from_deg', not both");
     if (uniform && !raster && !node.has("speed") && !node.has("speed_m_s")) node.report("key 'speed' is missing");
     if (uniform && !raster && !node.has("from_deg")) node.report("key 'from_deg' is missing (where the wind comes from)");
-    if (!uniform && !raster) node.report("expected 'file' or 'files' with u and v, or 'speed' and 'from_deg'");
+    if (!uniform && !raster) node.report("expected 'file' or 'files' with u and v, 'table', or 'speed' and 'from_deg'");
     if (raster) wind.raster = read_source(node, folder, kVectorSeries);
     wind.speed_m_s = speed.value_or(short_name.value_or(0.0));
     wind.from_deg = from_deg.value_or(wind.from_deg);

@@ -20,10 +20,11 @@
 
 namespace pyroscene::scenario {
 
-/// Wind as rasters (u, v bands) or as one vector for the whole map.
+/// Wind as rasters (u, v bands) or as one vector for the whole map, constant or from a table of a weather station.
 struct WindSource {
     std::optional<RasterSource> raster;  ///< `bands` holds {u, v} of the first frame, or is empty: 1, 2 (or pairs per frame)
     double speed_m_s = 0.0, from_deg = 270.0;
+    std::optional<std::filesystem::path> table;  ///< CSV: time_s, speed_m_s, from_deg; a row holds until the next
 };
 
 struct CoverSource {

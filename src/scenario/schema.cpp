@@ -66,7 +66,8 @@ constexpr const char* kSchema = R"json({
             "speed": {"$ref": "#/$defs/wind_speed"},
             "speed_m_s": {"$ref": "#/$defs/wind_speed"},
             "from_deg": {"type": "number", "minimum": -360, "maximum": 360,
-              "description": "where the wind comes from, clockwise from true north"}
+              "description": "where the wind comes from, clockwise from true north"},
+            "table": {"type": "string", "description": "CSV file of a station: time_s, speed_m_s, from_deg; instead of the others"}
           }
         },
         "arrival": {"$ref": "#/$defs/static", "description": "time of arrival of the fire, s since start"},

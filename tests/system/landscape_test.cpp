@@ -4,11 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "base/constants.h"
 #include "gis/raster_input.h"
 #include "pipeline/fingerprint.h"
 #include "pipeline/load_scenario.h"
 #include "pipeline/scene_inputs.h"
+#include "pipeline/wind_inputs.h"
 #include "system/support.h"
 
 namespace pyroscene::test {
@@ -89,6 +90,26 @@ TEST_F(LandscapeScenario, AnotherSchemeOrPlaceIsAnotherFire) {
     EXPECT_EQ(state("b", "scheme: fbfm40"), first);
     EXPECT_NE(state("c", "scheme: fbfm53"), first);
     EXPECT_NE(state("d", "scheme: fbfm40, crs: 'EPSG:32611'"), first);
+}
+
+TEST_F(LandscapeScenario, WindOfAStationChangesRowByRow) {
+    std::ofstream(scratch / "station.csv") << "time_s,speed_m_s,from_deg\n600,3,270\n1800,4,180\n";
+    auto s = load("station", "  landscape: {file: " + lolo("canyon.lcp") + ", scheme: fbfm40}\n  spread:\n" + kFire);
+    s.inputs.wind = scenario::WindSource{};
+    s.inputs.wind->table = scratch / "station.csv";
+    EXPECT_EQ(pipeline::wind_times_s(s), (std::vector{600.0, 1800.0}));
+    const auto grid = gis::make_map_grid(lolo("dem.tif"), {}, {});
+    // Map north lies 2.1 deg off true north here: convergence = (114.14 W - 117 W) sin 46.69 N.
+    const double turn = (117.0 - 114.1426) * std::sin(46.6906 * kDegree_rad) * kDegree_rad;
+    const auto blows = [&](double time_s, double east, double north) {
+        const auto wind = pipeline::wind_at(s, grid, 1, 0, time_s);
+        EXPECT_NEAR(wind.east_m_s.values[0], east * std::cos(turn) - north * std::sin(turn), 2e-3) << time_s;
+        EXPECT_NEAR(wind.north_m_s.values[0], east * std::sin(turn) + north * std::cos(turn), 2e-3) << time_s;
+    };
+    blows(0.0, 3.0, 0.0);
+    blows(1799.0, 3.0, 0.0);
+    blows(1800.0, 0.0, 4.0);
+    blows(9000.0, 0.0, 4.0);
 }
 
 }  // namespace
