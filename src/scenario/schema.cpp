@@ -90,20 +90,7 @@ constexpr const char* kSchema = R"json({
             "spread_rate": {"type": "object", "additionalProperties": false, "required": ["file"],
               "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["m/s", "m/min", "ft/min", "chain/h"]}}},
             "offset_s": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "start of the model's clock after 'start'; without it: 0"},
-            "fuel": {
-              "description": "fuel model of each cell",
-              "type": "object",
-              "additionalProperties": false,
-              "required": ["file", "table"],
-              "properties": {
-                "file": {"type": "string"},
-                "band": {"$ref": "#/$defs/band"},
-                "table": {"type": "string", "description": "which codes: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
-                  "examples": ["fbfm13", "fbfm40", "fbfm53"]},
-                "custom": {"type": "string", "description": "CSV file of more fuel models"},
-                "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"}
-              }
-            },
+            "fuel": {"$ref": "#/$defs/fuel"},
             "fuel_moisture_pct": {"type": "number", "minimum": 0, "maximum": 300, "description": "without it: 8"},
             "duration_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7},
             "frame_step_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "description": "without it: 300"},
@@ -136,20 +123,7 @@ constexpr const char* kSchema = R"json({
           "additionalProperties": false,
           "required": ["ignition", "moisture"],
           "properties": {
-            "fuel": {
-              "description": "fuel model of each cell",
-              "type": "object",
-              "additionalProperties": false,
-              "required": ["file", "table"],
-              "properties": {
-                "file": {"type": "string"},
-                "band": {"$ref": "#/$defs/band"},
-                "table": {"type": "string", "description": "which codes: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
-                  "examples": ["fbfm13", "fbfm40", "fbfm53"]},
-                "custom": {"type": "string", "description": "CSV file of more fuel models"},
-                "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"}
-              }
-            },
+            "fuel": {"$ref": "#/$defs/fuel"},
             "ignition": {"type": "array", "minItems": 1, "items": {
               "type": "object",
               "additionalProperties": false,
@@ -528,6 +502,20 @@ constexpr const char* kSchema = R"json({
     "mole_fraction": {"type": "number", "minimum": 0, "maximum": 1},
     "wind_speed": {"type": "number", "minimum": 0, "maximum": 100, "description": "m s-1"},
     "band": {"type": "integer", "minimum": 1, "maximum": 65535, "description": "counted from 1"},
+    "fuel": {
+      "description": "fuel model of each cell",
+      "type": "object",
+      "additionalProperties": false,
+      "required": ["file", "table"],
+      "properties": {
+        "file": {"type": "string"},
+        "band": {"$ref": "#/$defs/band"},
+        "table": {"type": "string", "description": "which codes: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
+          "examples": ["fbfm13", "fbfm40", "fbfm53"]},
+        "custom": {"type": "string", "description": "CSV file of more fuel models"},
+        "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"}
+      }
+    },
     "times_s": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},
       "description": "s since start of each frame, ascending; default: band metadata time_s"},
     "surface": {"type": "string", "description": "one of these, or a name of surface.spectra", "examples": ["grass_green", "grass_dry", "grass_cured_20pct_green", "chaparral", "conifer", "litter_needles",
