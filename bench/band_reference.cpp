@@ -84,22 +84,6 @@ private:
     std::size_t i_ = 0;
 };
 
-/// Points at most 1 cm-1 apart, closer at the corners of the response and in lines.
-std::vector<double> fine_wavelengths_um(const Spectrum& response, const FlameOptics& optics) {
-    const double lower = response.lambda_um.front(), upper = response.lambda_um.back();
-    std::vector<double> x = response.lambda_um;
-    for (double wavenumber = 1e4 / upper; wavenumber < 1e4 / lower; wavenumber += 1.0) x.push_back(1e4 / wavenumber);
-    const auto& lines = optics.alkali.potassium;
-    constexpr double kReach_um = 0.04;
-    if (lower < lines.front().wavelength_um + kReach_um && upper > lines.back().wavelength_um - kReach_um) {
-        const auto fine = radiometry::doublet_wavelengths_um(lines, lower, upper);
-        x.insert(x.end(), fine.begin(), fine.end());
-    }
-    std::sort(x.begin(), x.end());
-    x.erase(std::unique(x.begin(), x.end()), x.end());
-    return x;
-}
-
 double reference(const Spectrum& response, const std::vector<double>& x, const FlameOptics& optics, const Scene& scene,
                  const AtmosphericTerms* terms) {
     std::optional<AirAt> air;
@@ -134,6 +118,21 @@ double on_grid(const radiometry::SpectralGrid& grid, std::size_t band, const Fla
 }
 
 }  // namespace
+
+std::vector<double> fine_wavelengths_um(const Spectrum& response, const FlameOptics& optics) {
+    const double lower = response.lambda_um.front(), upper = response.lambda_um.back();
+    std::vector<double> x = response.lambda_um;
+    for (double wavenumber = 1e4 / upper; wavenumber < 1e4 / lower; wavenumber += 1.0) x.push_back(1e4 / wavenumber);
+    const auto& lines = optics.alkali.potassium;
+    constexpr double kReach_um = 0.04;
+    if (lower < lines.front().wavelength_um + kReach_um && upper > lines.back().wavelength_um - kReach_um) {
+        const auto fine = radiometry::doublet_wavelengths_um(lines, lower, upper);
+        x.insert(x.end(), fine.begin(), fine.end());
+    }
+    std::sort(x.begin(), x.end());
+    x.erase(std::unique(x.begin(), x.end()), x.end());
+    return x;
+}
 
 std::vector<BandError> quadrature_errors(const sensors::Sensor& sensor, const FlameOptics& optics,
                                          const radiometry::AtmosphereSet& set,

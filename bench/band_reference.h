@@ -26,6 +26,9 @@ inline constexpr const char* kReferenceScenes[] = {"2.3 m of flame, 1080 K, befo
                                                    "ground of 650 K by day, 45 deg",
                                                    "1.5 m of flame, 1200 K, before ground of 320 K, no air"};
 
+/// Wavelengths at most 1 cm-1 apart, closer at the corners of the response and in lines.
+std::vector<double> fine_wavelengths_um(const Spectrum& response, const radiometry::FlameOptics& optics);
+
 /// Band radiances on the grid that a render would take (vertical and 25 and 50 degrees of air known to it) against sums over every
 /// 1 cm-1 at most, alkali lines resolved a thousand times finer; mid-latitude summer, sun 40 degrees from the zenith, sensor at
 /// 3 km or, in space, 100 km.

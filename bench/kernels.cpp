@@ -52,22 +52,53 @@ void emit(benchmark::State& state) {
 }
 BENCHMARK(emit)->Args({224, 1})->Args({224, 4})->Args({36, 4});
 
-/// One piece of flame with gas at 224 wavelengths: soot and atoms alone (0 gases), or with that many absorbing everywhere.
-void mixture(benchmark::State& state) {
+/// Grey flame: one exp and four weights of Planck rows a voxel, for all wavelengths together.
+void grey(benchmark::State& state) {
     constexpr int n = 224;
+    const render::PlanckRows planck(std::vector<double>(n, 4.0), n, 800.0, 1200.0, {});
+    std::vector<double> weight(static_cast<std::size_t>(planck.row_count()), 0.0);
+    double T_K = 801.0, tau = 1.0;
+    for (auto _ : state) {
+        const double emitted = -tau * std::expm1(-0.3 * 1e-3 * T_K);
+        tau = tau < 1e-3 ? 1.0 : tau - emitted;
+        const auto found = planck.at(T_K);
+        for (int j = 0; j < found.count; ++j)
+            weight[static_cast<std::size_t>(found.row + j)] += emitted * found.weight[static_cast<std::size_t>(j)];
+        T_K = T_K < 1190.0 ? T_K + 7.3 : 801.0;
+        benchmark::DoNotOptimize(weight.data());
+    }
+    state.counters["items"] = n;
+    state.SetLabel("ns per voxel and wavelength, grey flame at 224 wavelengths");
+}
+BENCHMARK(grey);
+
+/// Flame of soot, atoms and some of the gases, at n wavelengths where all of them absorb.
+radiometry::FlameTable table_of_gases(int n, int gases) {
+    const auto size = static_cast<std::size_t>(n);
     radiometry::FlameTable table;
     table.stride = n;
     table.row_count = 2;
     table.lowest_K = 900.0;
     table.step_K = 20.0;
-    table.continuum_per_m.assign(2 * n, 0.1F);
+    table.continuum_per_m.assign(2 * size, 0.1F);
     std::vector<int> blocks;
     for (int l = 0; l < n; l += radiometry::FlameTable::kLanes) blocks.push_back(l);
-    for (int g = 0; g < static_cast<int>(state.range(0)); ++g)
-        table.gases.push_back({radiometry::GasSpecies::H2O, blocks, std::vector<float>(6 * n, 0.05F)});
+    for (int g = 0; g < gases; ++g)
+        table.gases.push_back({radiometry::GasSpecies::H2O, blocks, std::vector<float>(6 * size, 0.05F)});
+    return table;
+}
+
+render::PlanckRows flame_planck(int n) {
     std::vector<double> lambda_um;
     for (int l = 0; l < n; ++l) lambda_um.push_back(2.0 + 0.03 * l);
-    const render::PlanckRows planck(lambda_um, n, 900.0, 920.0, {});
+    return {lambda_um, n, 900.0, 920.0, {}};
+}
+
+/// One piece of flame with gas at 224 wavelengths: soot and atoms alone (0 gases), or with that many absorbing everywhere.
+void mixture(benchmark::State& state) {
+    constexpr int n = 224;
+    const auto table = table_of_gases(n, static_cast<int>(state.range(0)));
+    const auto planck = flame_planck(n);
     render::MixtureRay ray(table);
     std::vector<float> flame(n, 0.0F);
     int pieces = 0;
@@ -77,7 +108,7 @@ void mixture(benchmark::State& state) {
         benchmark::DoNotOptimize(flame.data());
     }
     state.counters["items"] = n;
-    state.SetLabel(fmt::format("ns per voxel and wavelength, soot and {} gases", state.range(0)));
+    state.SetLabel(fmt::format("ns per voxel and wavelength, soot, alkali lines and {} gases", state.range(0)));
 }
 BENCHMARK(mixture)->Arg(0)->Arg(1)->Arg(3);
 

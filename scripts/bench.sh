@@ -21,6 +21,7 @@ echo
 echo "| case | measured | compared with | ratio | limits | condition on the result |"
 echo "|---|---|---|---|---|---|"
 "$build/bench/bench_frames" --pairs "$pairs"
+"$build/bench/bench_physics" --runs "$pairs"
 "$build/bench/bench_kernels"
 "$build/bench/bench_prepare"
 "$build/bench/bench_spread"
