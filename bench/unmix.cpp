@@ -1,5 +1,5 @@
 // Unmixing speed (B4): an image of 614 x 512 pixels, 224 bands, mixtures of up to three of five endmembers with noise. Stepwise selection
-// by `pyroscene::pipeline::unmix_image` against plain least squares (ucls, which selects nothing) of Orfeo ToolBox when it is
+// by `pyroscene::imagery::unmix_image` against plain least squares (ucls, which selects nothing) of Orfeo ToolBox when it is
 // installed (Debian: otb-bin), whole processes alternately, one thread each. Prints one row of the benchmark table.
 //   bench_unmix [--pairs N]
 #include <array>
@@ -15,7 +15,7 @@
 #include "base/random.h"
 #include "bench/measure.h"
 #include "gis/raster_output.h"
-#include "pipeline/unmix_image.h"
+#include "imagery/unmix_image.h"
 #include "radiometry/planck.h"
 
 namespace {
@@ -120,7 +120,7 @@ void write_inputs(const fs::path& folder) {
 
 /// Unmixes with the truth at hand and returns the rms error over all endmembers.
 std::vector<double> unmix(const fs::path& folder, bool stepwise, bool scored) {
-    pipeline::UnmixJob job;
+    imagery::UnmixJob job;
     job.image = folder / "cube.tif";
     job.endmembers = folder / "endmembers.csv";
     if (scored) job.truth = folder / "truth.tif";
@@ -128,7 +128,7 @@ std::vector<double> unmix(const fs::path& folder, bool stepwise, bool scored) {
     job.threads = 1;
     job.output = folder / "fractions.tif";
     double squares = 0.0;
-    const auto report = pipeline::unmix_image(job);
+    const auto report = imagery::unmix_image(job);
     for (const auto& score : report.scores) squares += score.rms_error * score.rms_error;
     return {std::sqrt(squares / kMembers)};
 }

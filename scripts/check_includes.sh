@@ -19,8 +19,11 @@ BEGIN {
     allow["render"]     = "base fire radiometry"
     allow["sensors"]    = "base config radiometry gis/geodesy.h"
     allow["scenario"]   = "base config fire spread"
-    allow["pipeline"]   = "base config fire spread radiometry analysis gis render sensors scenario"
-    allow["cli"]        = "base fire spread radiometry analysis gis sensors scenario pipeline"
+    allow["inputs"]     = "base fire spread radiometry gis scenario"
+    allow["drawing"]    = "base radiometry"
+    allow["imagery"]    = "base radiometry analysis gis sensors drawing"
+    allow["pipeline"]   = "base config fire spread radiometry analysis gis render sensors scenario inputs drawing imagery"
+    allow["cli"]        = "base fire spread radiometry analysis gis sensors scenario inputs drawing imagery pipeline"
 
     # module -> third-party headers (regular expression) its .cpp files may include; fmt is free for all, headers get none
     foreign["gis"]      = "^(gdal|ogr|cpl_|proj|GeographicLib/|hdf/mfhdf)"
@@ -29,6 +32,9 @@ BEGIN {
     foreign["analysis"] = "^boost/math/"
     foreign["config"]   = "^yaml-cpp/"
     foreign["render"]   = "^(embree3/|tbb/|oneapi/tbb)"
+    foreign["inputs"]   = "^(tbb/|oneapi/tbb)"
+    foreign["drawing"]  = "^(opencv2/|openssl/)"
+    foreign["imagery"]  = "^(tbb/|oneapi/tbb|opencv2/|nlohmann/)"
     foreign["pipeline"] = "^(tbb/|oneapi/tbb|opencv2/|openvdb/|nlohmann/|openssl/)"
     foreign["cli"]      = "^(CLI/|spdlog/)"
 

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "inputs/load_scenario.h"
 #include "pipeline/atmosphere_deck.h"
 #include "pipeline/import_atmosphere.h"
-#include "pipeline/load_scenario.h"
 
 namespace pyroscene::cli {
 namespace {
@@ -82,7 +82,7 @@ void add_deck(CLI::App& app, const bool& quiet) {
     sub->footer(
         "Example: pyroscene atmosphere-deck scenarios/lolo_peak/scenario.yaml --acquisition wasp --for modtran6 -o deck");
     sub->callback([options, &quiet] {
-        const auto scene = pipeline::load_scenario(options->scenario);
+        const auto scene = inputs::load_scenario(options->scenario);
         const auto files = pipeline::write_atmosphere_deck(scene, options->acquisition, options->code, options->output);
         if (!quiet) fmt::print("{}: {} files\n", options->output, files.size());
     });

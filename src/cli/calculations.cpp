@@ -10,9 +10,9 @@
 #include "cli/calc.h"
 #include "cli/flame_calculations.h"
 #include "cli/spread_calculation.h"
+#include "drawing/line_plot.h"
 #include "fire/scar.h"
 #include "gis/netcdf_input.h"
-#include "pipeline/line_plot.h"
 #include "radiometry/atmosphere.h"
 #include "radiometry/flame_optics.h"
 #include "radiometry/planck.h"
@@ -82,18 +82,18 @@ std::vector<double> atmosphere(const Arguments& a) {
 
 void plot_atmosphere(const Arguments& a, const std::string& file) {
     const auto t = radiometry::evaluate(atmosphere_set(a), atmosphere_point(a));
-    const pipeline::PlotAxis wavelength{"wavelength / um", true, {}, {}};
-    const auto diagram = [&](const char* label, bool logarithmic, double lowest, std::vector<pipeline::PlotSeries> series) {
-        pipeline::LinePlot plot;
+    const drawing::PlotAxis wavelength{"wavelength / um", true, {}, {}};
+    const auto diagram = [&](const char* label, bool logarithmic, double lowest, std::vector<drawing::PlotSeries> series) {
+        drawing::LinePlot plot;
         plot.x = wavelength;
         plot.y = {label, logarithmic, lowest, {}};
         plot.series = std::move(series);
         return plot;
     };
     const auto curve = [&](const char* name, const std::vector<double>& y) {
-        return pipeline::PlotSeries{name, t.wavelength_um, y, false};
+        return drawing::PlotSeries{name, t.wavelength_um, y, false};
     };
-    std::vector<pipeline::LinePlot> plots{
+    std::vector<drawing::LinePlot> plots{
         diagram("1", false, 0.0,
                 {curve("transmittance", t.transmittance), curve("spherical albedo", t.spherical_albedo),
                  curve("diffuse transmittance", t.diffuse_transmittance)}),
@@ -104,7 +104,7 @@ void plot_atmosphere(const Arguments& a, const std::string& file) {
     plots.front().title =
         fmt::format("{}, {} km visibility, sensor {} m, view {} deg, sun {} deg", a.text("model"), a.text("visibility_km"),
                     a.text("altitude_m"), a.text("view_zenith_deg"), a.text("sun_zenith_deg"));
-    pipeline::write_line_plots(file, plots);
+    drawing::write_line_plots(file, plots);
 }
 
 /// A homogeneous flame before a cold black background, at one exact wavelength.

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/compare_images.h"
+#include "imagery/compare_images.h"
 
 namespace pyroscene::cli {
 
 void compare_command(const CompareOptions& o) {
-    pipeline::CompareJob job;
+    imagery::CompareJob job;
     job.synthetic = o.synthetic;
     job.real = o.real;
     job.output = o.output.empty() ? std::filesystem::path("out") / (job.synthetic.stem().string() + "_comparison")
@@ -15,7 +15,7 @@ void compare_command(const CompareOptions& o) {
     job.register_images = !o.no_registration;
     job.largest_shift = o.largest_shift;
     if (o.has_threshold) job.threshold = o.threshold;
-    const auto report = pipeline::compare_images(job);
+    const auto report = imagery::compare_images(job);
     if (o.quiet) return;
     fmt::print("shift of the real image: {:.2f} m east, {:.2f} m north (correlation peak {:.3f}{})\n", report.shift_east_m,
                report.shift_north_m, report.registration_response,

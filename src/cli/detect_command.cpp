@@ -9,9 +9,9 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include "pipeline/detect_image.h"
-#include "pipeline/energy_of_frames.h"
-#include "pipeline/index_image.h"
+#include "imagery/detect_image.h"
+#include "imagery/energy_of_frames.h"
+#include "imagery/index_image.h"
 
 namespace pyroscene::cli {
 namespace {
@@ -30,7 +30,7 @@ void print_bins(const char* title, const std::vector<analysis::ScoreBin>& bins) 
     }
 }
 
-void print(const pipeline::DetectJob& job, const pipeline::DetectReport& r) {
+void print(const imagery::DetectJob& job, const imagery::DetectReport& r) {
     fmt::print("{} with {}\n", r.method, r.bands);
     if (r.threshold) fmt::print("threshold {:.5g}\n", *r.threshold);
     fmt::print("{} fire pixels{}; {} unknown, {} sun glint, {} cloud, {} water, {} without fire\n", r.fire_pixels,
@@ -51,7 +51,7 @@ void print(const pipeline::DetectJob& job, const pipeline::DetectReport& r) {
 
 /// Command-line text of what may be left out.
 struct DetectOptions {
-    pipeline::DetectJob job;
+    imagery::DetectJob job;
     std::string output, image;
 };
 
@@ -61,8 +61,8 @@ void add_detect(CLI::App& app, const bool& quiet, const std::atomic<bool>& inter
     auto* sub = app.add_subcommand("detect", "fire pixels of any calibrated raster, and how many of the true ones they are");
     sub->add_option("IMAGE", options->image, "radiances (or brightness temperatures) on a map or with geolocation arrays")
         ->required();
-    sub->add_option("--method", job.method, fmt::format("{}", fmt::join(pipeline::detection_methods(), ", ")))
-        ->check(CLI::IsMember(pipeline::detection_methods()))
+    sub->add_option("--method", job.method, fmt::format("{}", fmt::join(imagery::detection_methods(), ", ")))
+        ->check(CLI::IsMember(imagery::detection_methods()))
         ->capture_default_str();
     sub->add_option("--sensor", job.sensor, "whose spectral responses the bands have (default: as the image says)");
     sub->add_option("--mir-band", job.mir_band, "from 1 (default: nearest 3.96 um, viirs375 3.74 um)")
@@ -89,14 +89,14 @@ void add_detect(CLI::App& app, const bool& quiet, const std::atomic<bool>& inter
         o.job.image = o.image;
         o.job.output = output_or_beside(o.output, o.job.image, o.job.method);
         o.job.cancelled = &interrupted;
-        const auto report = pipeline::detect_image(o.job);
+        const auto report = imagery::detect_image(o.job);
         for (const auto& note : report.notes) spdlog::warn(note);
         if (!quiet) print(o.job, report);
     });
 }
 
 struct IndexOptions {
-    pipeline::IndexJob job;
+    imagery::IndexJob job;
     std::string output, image;
 };
 
@@ -105,8 +105,8 @@ void add_index(CLI::App& app, const bool& quiet) {
     auto& job = options->job;
     auto* sub = app.add_subcommand("index", "spectral indices and burn severity of any raster with wavelength metadata");
     sub->add_option("IMAGE", options->image, "radiances or reflectances; for dnbr, after the fire")->required();
-    sub->add_option("--name", job.name, fmt::format("{}", fmt::join(pipeline::index_names(), ", ")))
-        ->check(CLI::IsMember(pipeline::index_names()))
+    sub->add_option("--name", job.name, fmt::format("{}", fmt::join(imagery::index_names(), ", ")))
+        ->check(CLI::IsMember(imagery::index_names()))
         ->capture_default_str();
     sub->add_option("--before", job.before, "dnbr: image from before the fire");
     sub->add_option("--sensor", job.sensor, "whose spectral responses the bands have (default: as the image says)");
@@ -120,7 +120,7 @@ void add_index(CLI::App& app, const bool& quiet) {
             throw std::invalid_argument("--before belongs to --name dnbr, and dnbr needs it");
         o.job.image = o.image;
         o.job.output = output_or_beside(o.output, o.job.image, o.job.name);
-        const auto report = pipeline::index_image(o.job);
+        const auto report = imagery::index_image(o.job);
         if (quiet) return;
         fmt::print("{} of {}: {:.4g} to {:.4g}, median {:.4g}\n", o.job.name, fmt::join(report.bands, ", "), report.minimum,
                    report.maximum, report.median);
@@ -142,7 +142,7 @@ void add_fre(CLI::App& app, const bool& quiet) {
     sub->add_option("-o,--output", options->output, "GeoTIFF; the table goes beside it")->required();
     sub->footer("Example: pyroscene fre out/my_fire/*/ortho_frp.tif -o fre.tif");
     sub->callback([options, &quiet] {
-        const auto steps = pipeline::energy_of_frames({{options->frames.begin(), options->frames.end()}, options->output});
+        const auto steps = imagery::energy_of_frames({{options->frames.begin(), options->frames.end()}, options->output});
         if (quiet) return;
         fmt::print("{:>20} {:>10} {:>12} {:>14}\n", "time", "s", "FRP MW", "FRE MJ");
         for (const auto& s : steps)

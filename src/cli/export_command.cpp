@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/progress.h"
+#include "inputs/load_scenario.h"
 #include "pipeline/flame_export.h"
-#include "pipeline/load_scenario.h"
 
 namespace pyroscene::cli {
 namespace {
@@ -80,7 +80,7 @@ void export_command(const ExportOptions& options) {
     const auto& format = format_of(options.format);
     auto request = request_of(options);
     if (options.format == "vdb" && !pipeline::has_openvdb()) pipeline::write_flame_vdb("export", {});  // says why not
-    const auto scene = pipeline::load_scenario(options.scenario);
+    const auto scene = inputs::load_scenario(options.scenario);
     Progress progress(options.quiet);
     request.monitor.progress = [&](double fraction) { progress.update("fire states", fraction); };
     request.monitor.cancelled = options.cancelled;

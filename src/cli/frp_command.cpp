@@ -8,7 +8,7 @@
 #include "analysis/frp.h"
 #include "base/csv.h"
 #include "base/error.h"
-#include "pipeline/frp_image.h"
+#include "imagery/frp_image.h"
 
 namespace pyroscene::cli {
 namespace {
@@ -32,7 +32,7 @@ std::optional<double> coefficient_of(const std::string& text) {
 }  // namespace
 
 void frp_command(const FrpOptions& o, const std::atomic<bool>& interrupted) {
-    pipeline::FrpJob job;
+    imagery::FrpJob job;
     job.image = o.image;
     job.bispectral = o.method == "bispectral";
     if (o.mir_band > 0) job.mir_band = o.mir_band;
@@ -50,7 +50,7 @@ void frp_command(const FrpOptions& o, const std::atomic<bool>& interrupted) {
     job.output = o.output.empty() ? job.image.parent_path() / (job.image.stem().string() + "_frp.tif")
                                   : std::filesystem::path(o.output);
     job.cancelled = &interrupted;
-    const auto report = pipeline::frp_image(job);
+    const auto report = imagery::frp_image(job);
     if (o.quiet) return;
     fmt::print("MIR band: {}, a = {:.4g} W m-2 sr-1 um-1 K-4\n", report.mir_band, report.coefficient_W_m2_sr_um_K4);
     if (!report.tir_band.empty()) fmt::print("thermal band: {}\n", report.tir_band);

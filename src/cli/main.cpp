@@ -22,7 +22,7 @@
 #include "cli/progress.h"
 #include "cli/sensors_command.h"
 #include "cli/unmix_command.h"
-#include "pipeline/load_scenario.h"
+#include "inputs/load_scenario.h"
 #include "pipeline/run.h"
 
 namespace {
@@ -56,7 +56,7 @@ struct Arguments {
 using Phase = void (*)(const scenario::Scenario&, const pipeline::RunOptions&, RunReport&);
 
 void run_phase(Phase phase, const Arguments& a, const std::string& command_line) {
-    const auto scene = pipeline::load_scenario(a.scenario);
+    const auto scene = inputs::load_scenario(a.scenario);
     cli::Progress progress(a.quiet);
     RunReport report;
     report.on_warning = [&](const std::string& message) {
@@ -88,7 +88,7 @@ int run_check(const Arguments& a) {
         return kDone;
     }
     if (a.scenario.empty()) throw CLI::RequiredError("SCENARIO");
-    const auto result = pipeline::check(pipeline::load_scenario(a.scenario));
+    const auto result = pipeline::check(inputs::load_scenario(a.scenario));
     for (const auto& warning : result.warnings) spdlog::warn(warning);
     for (const auto& problem : result.problems) fmt::print(stderr, "{}\n", problem);
     if (!result.problems.empty()) return kRejected;

@@ -8,10 +8,10 @@
 
 #include "base/csv.h"
 #include "base/error.h"
+#include "drawing/line_plot.h"
+#include "drawing/quicklook.h"
 #include "gis/image_stream.h"
 #include "gis/raster_input.h"
-#include "pipeline/line_plot.h"
-#include "pipeline/quicklook.h"
 
 namespace pyroscene::cli {
 namespace {
@@ -23,8 +23,8 @@ struct PlotOptions {
     bool log_x = false, log_y = false;
 };
 
-pipeline::PlotAxis axis(const std::string& label, bool logarithmic, const std::vector<double>& range) {
-    pipeline::PlotAxis a{label, logarithmic, {}, {}};
+drawing::PlotAxis axis(const std::string& label, bool logarithmic, const std::vector<double>& range) {
+    drawing::PlotAxis a{label, logarithmic, {}, {}};
     if (!range.empty()) {
         a.lowest = range[0];
         a.highest = range[1];
@@ -33,9 +33,9 @@ pipeline::PlotAxis axis(const std::string& label, bool logarithmic, const std::v
 }
 
 /// One curve per column, or, with --by, per value of that column in the order of the table.
-std::vector<pipeline::PlotSeries> series_of(const CsvTable& table, const PlotOptions& o) {
+std::vector<drawing::PlotSeries> series_of(const CsvTable& table, const PlotOptions& o) {
     const auto x = table.numbers(o.x);
-    std::vector<pipeline::PlotSeries> all;
+    std::vector<drawing::PlotSeries> all;
     for (const auto& column : o.y) {
         const auto y = table.numbers(column);
         const bool points = std::find(o.points.begin(), o.points.end(), column) != o.points.end();
@@ -58,14 +58,14 @@ void run_plot(const PlotOptions& o, bool quiet) {
         if (std::find(o.y.begin(), o.y.end(), column) == o.y.end())
             throw input_error("--points", fmt::format("'{}' is not among the columns of --y", column));
     const auto table = read_csv(o.csv);
-    const pipeline::LinePlot plot{o.title,
-                                  axis(o.x_label.empty() ? o.x : o.x_label, o.log_x, o.x_range),
-                                  axis(o.y_label.empty() ? o.y.front() : o.y_label, o.log_y, o.y_range),
-                                  series_of(table, o),
-                                  900,
-                                  480,
-                                  {}};
-    pipeline::write_line_plots(o.output, std::span(&plot, 1));
+    const drawing::LinePlot plot{o.title,
+                                 axis(o.x_label.empty() ? o.x : o.x_label, o.log_x, o.x_range),
+                                 axis(o.y_label.empty() ? o.y.front() : o.y_label, o.log_y, o.y_range),
+                                 series_of(table, o),
+                                 900,
+                                 480,
+                                 {}};
+    drawing::write_line_plots(o.output, std::span(&plot, 1));
     if (!quiet) fmt::print("written: {}\n", o.output);
 }
 
@@ -98,7 +98,7 @@ struct PictureOptions {
 };
 
 /// The part of a plane that --window asks for: first column, first row, columns, rows.
-pipeline::QuicklookPanel panel_of(const PictureOptions& o, gis::ImageStream& image, std::size_t k) {
+drawing::QuicklookPanel panel_of(const PictureOptions& o, gis::ImageStream& image, std::size_t k) {
     const auto& info = image.info();
     const int band = o.bands[k];
     if (band < 1 || band > static_cast<int>(info.bands.size()))
@@ -110,7 +110,7 @@ pipeline::QuicklookPanel panel_of(const PictureOptions& o, gis::ImageStream& ima
         part[1] + part[3] > info.rows)
         throw input_error("--window", fmt::format("leaves the image of {} x {} pixels", info.cols, info.rows));
     const auto plane = image.read_band(band);
-    pipeline::QuicklookPanel panel{
+    drawing::QuicklookPanel panel{
         k < o.names.size() ? o.names[k] : about.description, about.unit, part[2], part[3], {}, o.logarithmic, {}, {}};
     for (int row = part[1]; row < part[1] + part[3]; ++row) {
         const auto first = plane.begin() + static_cast<std::ptrdiff_t>(row) * info.cols + part[0];
@@ -126,10 +126,10 @@ pipeline::QuicklookPanel panel_of(const PictureOptions& o, gis::ImageStream& ima
 void run_picture(const PictureOptions& o, bool quiet) {
     if (o.range.size() == 2 && !(o.range[1] > o.range[0])) throw input_error("--range", "low must be below high");
     gis::ImageStream image(o.raster);
-    std::vector<pipeline::QuicklookPanel> panels;
+    std::vector<drawing::QuicklookPanel> panels;
     for (std::size_t k = 0; k < o.bands.size(); ++k) panels.push_back(panel_of(o, image, k));
     const double pixel_m = image.info().on_map ? gis::make_map_grid(o.raster, {}, {}).cell_m : 0.0;
-    pipeline::write_quicklook(o.output, o.title, panels, pixel_m);
+    drawing::write_quicklook(o.output, o.title, panels, pixel_m);
     if (!quiet) fmt::print("written: {}\n", o.output);
 }
 

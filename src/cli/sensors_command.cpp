@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/files.h"
+#include "drawing/line_plot.h"
+#include "inputs/load_scenario.h"
 #include "pipeline/footprints.h"
-#include "pipeline/line_plot.h"
-#include "pipeline/load_scenario.h"
 #include "pipeline/sensor_json.h"
 #include "scenario/scenario.h"
 #include "sensors/detector.h"
@@ -83,9 +83,9 @@ void plot_responses(const std::string& id_or_path, const std::filesystem::path& 
     constexpr double kThermal_um = 3.0;
     constexpr std::size_t kMostInLegend = 8;
     const auto s = sensors::load_sensor(id_or_path);
-    std::vector<pipeline::LinePlot> plots;
+    std::vector<drawing::LinePlot> plots;
     for (const bool thermal : {false, true}) {
-        pipeline::LinePlot plot;
+        drawing::LinePlot plot;
         plot.title = fmt::format("{}: spectral response", s.id);
         plot.x.label = "wavelength, um";
         plot.y = {"response, peak 1", false, 0.0, 1.05};
@@ -96,7 +96,7 @@ void plot_responses(const std::string& id_or_path, const std::filesystem::path& 
             for (auto& series : plot.series) series.label.clear();
         if (!plot.series.empty()) plots.push_back(std::move(plot));
     }
-    pipeline::write_line_plots(file, plots);
+    drawing::write_line_plots(file, plots);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ void sensors_command(const SensorsOptions& options) {
         if (!options.id.empty() || options.json || !options.plot.empty())
             throw std::invalid_argument(
                 "sensors: --footprint takes its sensors from the scenario; leave ID, --json and --plot out");
-        const auto text = pipeline::footprints_geojson(pipeline::load_scenario(options.footprint));
+        const auto text = pipeline::footprints_geojson(inputs::load_scenario(options.footprint));
         if (options.output.empty())
             std::cout << text;
         else

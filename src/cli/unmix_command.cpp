@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/progress.h"
-#include "pipeline/unmix_image.h"
+#include "imagery/unmix_image.h"
 
 namespace pyroscene::cli {
 namespace {
@@ -31,7 +31,7 @@ std::vector<std::string> unmix_solvers() { return {"ucls", "sum-to-one", "nnls",
 void unmix_command(const UnmixOptions& options, const std::atomic<bool>& interrupted) {
     if (options.endmembers.empty() && options.truth.empty())
         throw std::invalid_argument("unmix: --endmembers or --truth is required");
-    pipeline::UnmixJob job;
+    imagery::UnmixJob job;
     job.image = options.image;
     job.endmembers = path_or_none(options.endmembers);
     job.truth = path_or_none(options.truth);
@@ -48,7 +48,7 @@ void unmix_command(const UnmixOptions& options, const std::atomic<bool>& interru
     job.cancelled = &interrupted;
     Progress progress(options.quiet);
     job.on_progress = [&](double fraction) { progress.update("unmix", fraction); };
-    const auto report = pipeline::unmix_image(job);
+    const auto report = imagery::unmix_image(job);
     progress.finish();
     if (options.quiet) return;
     fmt::print("{} pixels, {} of them unexplained\n{:<24} {:>9}\n", report.pixels, report.unexplained, "endmember",

@@ -27,7 +27,7 @@ using scenario::Scenario;
 std::string subject(const Acquisition& a) { return fmt::format("acquisition '{}'", a.id); }
 
 /// Map place the platform is over.
-std::array<double, 2> place(const Acquisition& acquisition, const SceneInputs& in, const fire::FireState* state,
+std::array<double, 2> place(const Acquisition& acquisition, const inputs::SceneInputs& in, const fire::FireState* state,
                             const gis::MapProjection& map) {
     const auto& p = acquisition.platform;
     if (p.map_xy_m) return *p.map_xy_m;
@@ -71,7 +71,7 @@ void check_table_covers(const std::filesystem::path& file, const radiometry::Atm
 
 }  // namespace
 
-sensors::Pose resolve_pose(const Acquisition& acquisition, const SceneInputs& in, const fire::FireState* state) {
+sensors::Pose resolve_pose(const Acquisition& acquisition, const inputs::SceneInputs& in, const fire::FireState* state) {
     const gis::MapProjection map(in.grid.crs_wkt);
     const auto [x, y] = place(acquisition, in, state, map);
     const auto& p = acquisition.platform;
@@ -129,7 +129,8 @@ std::vector<std::string> wanted_groups(const Acquisition& acquisition, const sen
     return groups;
 }
 
-FireScene make_fire_scene(const Scenario& scenario, const SceneInputs& in, const fire::FireState& state, double time_s) {
+FireScene make_fire_scene(const Scenario& scenario, const inputs::SceneInputs& in, const fire::FireState& state,
+                          double time_s) {
     const auto& voxel_m = scenario.flame.parameters.voxel_m;
     // Fine cells about as large as a voxel, so that a front narrower than a map cell is one in the image too.
     const bool fine = scenario.physics == fire::Physics::Default;
@@ -154,7 +155,7 @@ struct SceneAir {
     radiometry::AtmosphereConditions conditions;
     std::optional<radiometry::AtmosphereSet> set;
 };
-SceneAir scene_air(const Scenario& scenario, const SceneInputs& in, double sensor_agl_m,
+SceneAir scene_air(const Scenario& scenario, const inputs::SceneInputs& in, double sensor_agl_m,
                    const radiometry::SunPosition& sun) {
     SceneAir air;
     air.conditions.sensor_altitude_agl_m = sensor_agl_m;
@@ -189,7 +190,7 @@ radiometry::SpectralGrid make_grid(const std::vector<Spectrum>& responses, const
 
 /// What the ground around the scene is made of: the surface named in the scenario (added to `names` when the map has none
 /// of it), else the cover that most of the map has; -1 = nothing is known there.
-int surroundings_material(const Scenario& scenario, const SceneInputs& in, std::vector<std::string>& names) {
+int surroundings_material(const Scenario& scenario, const inputs::SceneInputs& in, std::vector<std::string>& names) {
     const std::string& wanted = scenario.render.background;
     if (wanted == "none") return -1;
     if (wanted != "cover") {
@@ -203,7 +204,8 @@ int surroundings_material(const Scenario& scenario, const SceneInputs& in, std::
 }
 
 /// The surroundings that scatter light into the view: share of each material in the area of the map, burnt ground last.
-std::vector<double> shares_of_ground(const SceneInputs& in, const fire::SurfaceField& surface, std::size_t materials) {
+std::vector<double> shares_of_ground(const inputs::SceneInputs& in, const fire::SurfaceField& surface,
+                                     std::size_t materials) {
     std::vector<double> share(materials, 0.0);
     const MapGrid& fine = surface.grid;
     const double cell = 1.0 / static_cast<double>(fine.size());
@@ -233,7 +235,7 @@ double air_temperature_K(const radiometry::AtmosphereSet& set, radiometry::Atmos
 
 }  // namespace
 
-SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& in, const FireScene& fire,
+SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneInputs& in, const FireScene& fire,
                                   const std::vector<Spectrum>& responses, double sensor_agl_m,
                                   const radiometry::SunPosition& sun, RunReport& report) {
     SpectralScene out;
@@ -279,7 +281,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const SceneInputs& i
     return out;
 }
 
-radiometry::SpectralGrid transport_grid(const Scenario& scenario, const SceneInputs& in,
+radiometry::SpectralGrid transport_grid(const Scenario& scenario, const inputs::SceneInputs& in,
                                         const std::vector<Spectrum>& responses, double sensor_agl_m,
                                         const radiometry::SunPosition& sun) {
     return make_grid(responses, flame_tables(scenario).get(), scenario.flame.gas,

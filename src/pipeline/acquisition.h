@@ -5,7 +5,7 @@
 
 #include "base/report.h"
 #include "fire/flame_field.h"
-#include "pipeline/scene_inputs.h"
+#include "inputs/scene_inputs.h"
 #include "radiometry/spectral_grid.h"
 #include "radiometry/sun.h"
 #include "radiometry/view_atmosphere.h"
@@ -16,13 +16,13 @@ namespace pyroscene::pipeline {
 
 /// Pose of an acquisition's platform, from its place over the map and the terrain (or the fire) below.
 /// Throws an input error: place outside the map, altitude below the terrain.
-sensors::Pose resolve_pose(const scenario::Acquisition& acquisition, const SceneInputs& inputs,
+sensors::Pose resolve_pose(const scenario::Acquisition& acquisition, const inputs::SceneInputs& inputs,
                            const fire::FireState* state);
 
 /// Pixels, path and times of one camera group's image: a frame, a flight line, a pass of a satellite, or a flown trajectory.
 /// \param state  for `over: fire`; null puts the platform over the centre (to judge sizes before there is a fire)
 /// Throws an input error: no orbit or speed for what is asked, a scene outside the swath.
-sensors::ImageGeometry resolve_geometry(const scenario::Acquisition& acquisition, const SceneInputs& inputs,
+sensors::ImageGeometry resolve_geometry(const scenario::Acquisition& acquisition, const inputs::SceneInputs& inputs,
                                         const fire::FireState* state, const sensors::Sensor& sensor,
                                         const sensors::CameraGroup& group);
 
@@ -40,8 +40,8 @@ struct FireScene {
     fire::FlameField plume;  ///< smoke; empty without one
     FlameGas gas;            ///< of the flame
 };
-FireScene make_fire_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const fire::FireState& state,
-                          double time_s);
+FireScene make_fire_scene(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
+                          const fire::FireState& state, double time_s);
 
 /// Everything spectral of one camera group.
 struct SpectralScene {
@@ -52,12 +52,12 @@ struct SpectralScene {
     double air_K = 0.0;              ///< near the ground; 0 without air
 };
 /// \param sensor_agl_m sensor height above the mean terrain  \param sun position at the scene centre
-SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const SceneInputs& inputs, const FireScene& fire,
-                                  const std::vector<Spectrum>& responses, double sensor_agl_m,
+SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
+                                  const FireScene& fire, const std::vector<Spectrum>& responses, double sensor_agl_m,
                                   const radiometry::SunPosition& sun, RunReport& report);
 
 /// The transport wavelengths alone, as make_spectral_scene() picks them.
-radiometry::SpectralGrid transport_grid(const scenario::Scenario& scenario, const SceneInputs& inputs,
+radiometry::SpectralGrid transport_grid(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
                                         const std::vector<Spectrum>& responses, double sensor_agl_m,
                                         const radiometry::SunPosition& sun);
 

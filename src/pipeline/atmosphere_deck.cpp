@@ -11,7 +11,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "pipeline/scene_inputs.h"
+#include "inputs/scene_inputs.h"
 #include "radiometry/sun.h"
 #include "sensors/sensor.h"
 
@@ -304,7 +304,7 @@ double widest_view_deg(const scenario::Acquisition& a, const sensors::Sensor& se
 
 DeckGeometry deck_geometry(const scenario::Scenario& s, const std::string& acquisition_id) {
     const auto& a = find(s, acquisition_id);
-    const auto in = load_scene_inputs(s);
+    const auto in = inputs::load_scene_inputs(s);
     const auto sensor = sensors::load_sensor(a.sensor);
     DeckGeometry g;
     g.model = s.atmosphere.model;
@@ -324,8 +324,8 @@ DeckGeometry deck_geometry(const scenario::Scenario& s, const std::string& acqui
     const double unix_s = s.start.unix_s + a.time_s;
     const auto sun = radiometry::sun_position(unix_s, in.centre.lat_deg, in.centre.lon_deg);
     g.sun_zenith_deg = s.render.sun ? sun.zenith_rad / kDegree_rad : 180.0;
-    const std::string date = scenario::UtcTime{unix_s}.iso8601();
-    const auto year_start = scenario::parse_utc(date.substr(0, 4) + "-01-01T00:00:00Z");
+    const std::string date = UtcTime{unix_s}.iso8601();
+    const auto year_start = parse_utc(date.substr(0, 4) + "-01-01T00:00:00Z");
     g.day_of_year = 1 + static_cast<int>((unix_s - year_start->unix_s) / 86400.0);
     g.lower_um = 1e3;
     g.upper_um = 0.0;

@@ -30,9 +30,9 @@ bool passes(CheckResult& result, const std::function<void()>& test) {
 }
 
 /// Every raster for itself, so that all problems show at once even when the terrain is fine and others are not.
-void check_rasters(const Scenario& s, const SceneInputs& in, CheckResult& result) {
+void check_rasters(const Scenario& s, const inputs::SceneInputs& in, CheckResult& result) {
     for (std::size_t i = 0; i < in.frames.size(); ++i)
-        if (!passes(result, [&] { (void)load_frame(s, in, i); })) break;
+        if (!passes(result, [&] { (void)inputs::load_frame(s, in, i); })) break;
     if (s.inputs.plume && !s.acquisitions.empty())
         passes(result, [&] { (void)make_plume(s, in, s.acquisitions.front().time_s); });
     if (s.inputs.fuel_load) {
@@ -61,10 +61,11 @@ std::string wavelengths_text(const radiometry::SpectralGrid& grid, const std::ve
                        plain == grid.size() ? "" : fmt::format("; {} without hot gas", plain));
 }
 
-std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const scenario::Acquisition& a, double& seconds) {
+std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in, const scenario::Acquisition& a,
+                                double& seconds) {
     const auto sensor = sensors::load_sensor(a.sensor);
     std::string out;
-    const std::size_t frame = frame_at(in.frames, a.time_s, a.id);
+    const std::size_t frame = inputs::frame_at(in.frames, a.time_s, a.id);
     for (const auto& id : wanted_groups(a, sensor)) {
         const auto& group = sensor.group(id);
         std::vector<Spectrum> responses;
@@ -96,12 +97,12 @@ std::string acquisition_summary(const Scenario& s, const SceneInputs& in, const 
 
 CheckResult check(const Scenario& scenario) {
     CheckResult result;
-    SceneInputs in;
-    if (!passes(result, [&] { in = load_scene_inputs(scenario); })) {
+    inputs::SceneInputs in;
+    if (!passes(result, [&] { in = inputs::load_scene_inputs(scenario); })) {
         // The frames can still be looked at by themselves.
         const auto before = result.problems;
         if (!scenario.inputs.spread && !scenario.inputs.arrival_model)
-            passes(result, [&] { (void)heat_flux_frames(scenario.inputs.heat_flux); });
+            passes(result, [&] { (void)inputs::heat_flux_frames(scenario.inputs.heat_flux); });
         if (result.problems.size() > 1 && result.problems.back() == before.front()) result.problems.pop_back();
         return result;
     }

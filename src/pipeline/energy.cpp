@@ -17,8 +17,8 @@ namespace {
 
 double fourth_power(double x) { return x * x * x * x; }
 
-double heat_release_W(const scenario::Scenario& scenario, const SceneInputs& in, double time_s) {
-    const auto frame = load_frame(scenario, in, frame_at(in.frames, time_s, "energy"));
+double heat_release_W(const scenario::Scenario& scenario, const inputs::SceneInputs& in, double time_s) {
+    const auto frame = inputs::load_frame(scenario, in, inputs::frame_at(in.frames, time_s, "energy"));
     double sum = 0.0;
     for (const float flux : frame.heat_flux_W_m2.values)
         if (flux > 0.0F) sum += flux;
@@ -33,7 +33,7 @@ double front_power_W(const fire::SurfaceField& surface) {
 }
 
 /// Fuel that burnt up to the last frame [kg].
-double fuel_consumed_kg(const scenario::RasterSource& source, const SceneInputs& in, const fire::FireState& last) {
+double fuel_consumed_kg(const scenario::RasterSource& source, const inputs::SceneInputs& in, const fire::FireState& last) {
     const auto bands = gis::read_info(source.files.back()).bands.size();
     const auto read = [&](const std::filesystem::path& file, int band) {
         return gis::read_band({file, band, gis::Resampling::Conserve, "fuel load", "kg m-2"}, in.grid);
@@ -55,7 +55,7 @@ double fuel_consumed_kg(const scenario::RasterSource& source, const SceneInputs&
 
 }  // namespace
 
-void record_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& in,
+void record_energy(RunReport& report, const scenario::Scenario& scenario, const inputs::SceneInputs& in,
                    const fire::FireState& state, const FireScene& scene, const std::string& acquisition_id) {
     const auto& surface = scene.surface;
     double front_W = 0.0, scar_W = 0.0;
@@ -132,7 +132,7 @@ void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario
                                 too_much ? "much" : "little"));
 }
 
-void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& in,
+void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario, const inputs::SceneInputs& in,
                           const std::filesystem::path& output) {
     if (in.modelled) return;  // its own report says it, without the error of an integral over frames
     double released_J = 0.0, before_W = 0.0;

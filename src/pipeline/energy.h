@@ -11,7 +11,7 @@ namespace pyroscene::pipeline {
 /// heat_release_W (cell-mean heat flux x area of the frame), front_W and scar_W (ground, emissivity 1; the scar above ambient),
 /// flame_W, flame_gas_W and smoke_W (flame_power.h), radiant_fraction = (front + flame + gas) / release.
 /// Warns when the radiant fraction of front and flame exceeds 0.35 (published for wildland fire: 0.10-0.25) under default physics.
-void record_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& inputs,
+void record_energy(RunReport& report, const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
                    const fire::FireState& state, const FireScene& scene, const std::string& acquisition_id);
 
 /// Scales soot, or temperature, of the flame so that front and flame radiate flame.radiant_fraction of the heat that the frame
@@ -24,7 +24,7 @@ void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario
 /// Heat of all frames (trapezoid over time of the release that the state files hold) as energy/inputs/heat_released_J and,
 /// with a fuel load, fuel_heat_J: fuel consumed (first minus last band; of a single band all fuel where the last frame's
 /// state is burning or burnt) x heat of combustion. Warns when more than 1.1 times the fuel's heat is released (E = int H <= w h).
-void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario, const SceneInputs& inputs,
+void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
                           const std::filesystem::path& output);
 
 }  // namespace pyroscene::pipeline

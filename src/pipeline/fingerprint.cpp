@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include "base/files.h"
+#include "inputs/scene_inputs.h"
 #include "pipeline/hash.h"
 #include "pipeline/run.h"
-#include "pipeline/scene_inputs.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -151,7 +151,7 @@ std::string sensor_text(const std::string& id_or_path) {
 
 Fingerprints::Fingerprints(const Scenario& scenario) : scenario_(scenario) {
     base_ = version();
-    for (const auto& file : input_files(scenario)) {
+    for (const auto& file : inputs::input_files(scenario)) {
         const auto hash = sha256_of_file(file);
         input_hashes_[file.string()] = hash;
         base_ += hash;

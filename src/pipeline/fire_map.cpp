@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/constants.h"
-#include "pipeline/line_plot.h"
-#include "pipeline/picture_file.h"
+#include "drawing/line_plot.h"
+#include "drawing/picture_file.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -112,18 +112,18 @@ cv::Mat draw_cells(const Raster<float>& terrain_m, const fire::FireState& state,
 void draw_frame(cv::Mat& canvas, const MapGrid& g, const cv::Rect& box) {
     cv::rectangle(canvas, box, kInk);
     const double width_km = g.cols * g.cell_m * 1e-3, height_km = g.rows * g.cell_m * 1e-3;
-    for (const double km : axis_ticks(g.west_m * 1e-3, g.east_m() * 1e-3, false, std::max(2, box.width / 130))) {
+    for (const double km : drawing::axis_ticks(g.west_m * 1e-3, g.east_m() * 1e-3, false, std::max(2, box.width / 130))) {
         const int px = box.x + static_cast<int>(std::lround((km - g.west_m * 1e-3) / width_km * box.width));
         cv::line(canvas, {px, box.y + box.height}, {px, box.y + box.height + 5}, kInk);
         text(canvas, fmt::format("{:.7g}", km), {px - 22, box.y + box.height + 19});
     }
-    for (const double km : axis_ticks(g.south_m() * 1e-3, g.north_m * 1e-3, false, std::max(2, box.height / 110))) {
+    for (const double km : drawing::axis_ticks(g.south_m() * 1e-3, g.north_m * 1e-3, false, std::max(2, box.height / 110))) {
         const int py = box.y + static_cast<int>(std::lround((g.north_m * 1e-3 - km) / height_km * box.height));
         cv::line(canvas, {box.x - 5, py}, {box.x, py}, kInk);
         text(canvas, fmt::format("{:.7g}", km), {4, py + 5});
     }
     text(canvas, "east, north [km]", {box.x + box.width - 118, box.y + box.height + 40});
-    draw_scale_bar(canvas, box.x, box.y + box.height + 32, box.width, g.cols * g.cell_m / box.width);
+    drawing::draw_scale_bar(canvas, box.x, box.y + box.height + 32, box.width, g.cols * g.cell_m / box.width);
 }
 
 void draw_legend(cv::Mat& canvas, const cv::Rect& box, const TimeRange& times) {
@@ -183,7 +183,7 @@ std::string fire_map_png(const Raster<float>& terrain_m, const fire::FireState& 
     draw_outlines(canvas, g, box, outlines);
     draw_frame(canvas, g, box);
     draw_legend(canvas, box, times);
-    return png_of(canvas);
+    return drawing::png_of(canvas);
 }
 
 }  // namespace pyroscene::pipeline

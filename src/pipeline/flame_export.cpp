@@ -9,9 +9,9 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "drawing/line_plot.h"
+#include "inputs/scene_inputs.h"
 #include "pipeline/acquisition.h"
-#include "pipeline/line_plot.h"
-#include "pipeline/scene_inputs.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -30,12 +30,12 @@ double time_of(const Scenario& scenario, const FlameExportRequest& request) {
 }
 
 /// The state of a frame, from the first frame on; one state at a time is in memory.
-fire::FireState state_of(const Scenario& scenario, const SceneInputs& in, std::size_t last, const Monitor& monitor) {
+fire::FireState state_of(const Scenario& scenario, const inputs::SceneInputs& in, std::size_t last, const Monitor& monitor) {
     std::optional<fire::FireState> previous;
     for (std::size_t i = 0; i <= last; ++i) {
         if (monitor.is_cancelled()) throw Cancelled();
         if (monitor.progress) monitor.progress(static_cast<double>(i) / static_cast<double>(last + 1));
-        previous = fire::advance(previous ? &*previous : nullptr, load_frame(scenario, in, i), scenario.fire);
+        previous = fire::advance(previous ? &*previous : nullptr, inputs::load_frame(scenario, in, i), scenario.fire);
     }
     if (monitor.progress) monitor.progress(1.0);
     return std::move(*previous);
@@ -49,7 +49,7 @@ std::array<std::int64_t, 2> cells(double low_m, double high_m, double edge_m) {
 }
 
 /// Extends the lattice of the flames to the map and sets its size.
-void place_lattice(FlameExport& flame, const SceneInputs& in, const std::optional<int>& layers, bool crop) {
+void place_lattice(FlameExport& flame, const inputs::SceneInputs& in, const std::optional<int>& layers, bool crop) {
     const auto& g = flame.field.grid;
     const double half_x_m = 0.5 * in.grid.cols * in.grid.cell_m, half_y_m = 0.5 * in.grid.rows * in.grid.cell_m;
     auto [i_low, i_end] = cells(-half_x_m, half_x_m, g.dx_m);
@@ -117,7 +117,7 @@ Vec3 FlameExport::corner_m() const noexcept {
 }
 
 FlameExport export_flame(const Scenario& scenario, const FlameExportRequest& request) {
-    auto in = load_scene_inputs(scenario);
+    auto in = inputs::load_scene_inputs(scenario);
     auto cut = scenario;
     if (request.voxel_m) cut.flame.parameters.voxel_m = *request.voxel_m;
     FlameExport flame;
@@ -127,9 +127,9 @@ FlameExport export_flame(const Scenario& scenario, const FlameExportRequest& req
     flame.above_ground = request.above_ground;
     flame.origin_m = in.origin_m;
     const auto label = request.acquisition.empty() ? std::string("--time_s") : request.acquisition;
-    const auto frame = frame_at(in.frames, flame.time_s, label);
+    const auto frame = inputs::frame_at(in.frames, flame.time_s, label);
     const auto state = state_of(scenario, in, frame, request.monitor);
-    flame.heat_flux_W_m2 = load_frame(scenario, in, frame).heat_flux_W_m2;
+    flame.heat_flux_W_m2 = inputs::load_frame(scenario, in, frame).heat_flux_W_m2;
     if (request.above_ground)
         for (float& height : in.terrain_m.values)
             if (!std::isnan(height)) height = 0.0F;
@@ -209,7 +209,7 @@ void write_side_view(const std::filesystem::path& path, const FlameExport& flame
         across = range_of(window->west_m, window->east_m, corner.x, g.dx_m, flame.size[0]);
         along = range_of(window->south_m, window->north_m, corner.y, g.dy_m, flame.size[1]);
     }
-    PlotImage image;
+    drawing::PlotImage image;
     image.cols = across.count();
     image.rows = flame.size[2];
     image.values.assign(static_cast<std::size_t>(image.cols) * static_cast<std::size_t>(image.rows), 0.0F);
@@ -223,22 +223,22 @@ void write_side_view(const std::filesystem::path& path, const FlameExport& flame
     image.y_low = corner.z;
     image.y_high = corner.z + image.rows * g.dz_m;
     image.unit = "m of flame along the line of sight";
-    LinePlot plot;
+    drawing::LinePlot plot;
     plot.width_px = 1100;
     plot.height_px = 340;
     plot.x.label = "east of the map's centre, m";
     plot.y.label = flame.above_ground ? "above the ground, m" : "height, m";
-    const double exaggeration =
-        (image.x_high - image.x_low) / plot_area(plot, true)[0] / ((image.y_high - image.y_low) / plot_area(plot, true)[1]);
+    const double exaggeration = (image.x_high - image.x_low) / drawing::plot_area(plot, true)[0] /
+                                ((image.y_high - image.y_low) / drawing::plot_area(plot, true)[1]);
     plot.title = fmt::format("{}, {}, seen from the south, heights x {:.2g}  SYNTHETIC", flame.scenario, clock(flame.time_s),
                              exaggeration);
     plot.image = std::move(image);
-    write_line_plots(path, std::vector{plot});
+    drawing::write_line_plots(path, std::vector{plot});
 }
 
 void write_top_view(const std::filesystem::path& path, const FlameExport& flame) {
     const auto& flux = flame.heat_flux_W_m2;
-    PlotImage image;
+    drawing::PlotImage image;
     image.cols = flux.grid.cols;
     image.rows = flux.grid.rows;
     image.values = flux.values;
@@ -247,17 +247,17 @@ void write_top_view(const std::filesystem::path& path, const FlameExport& flame)
     image.y_low = flux.grid.south_m() - flame.origin_m.y;
     image.y_high = flux.grid.north_m - flame.origin_m.y;
     image.unit = "heat flux, W m-2";
-    LinePlot plot;
+    drawing::LinePlot plot;
     plot.title = fmt::format("{}, {}  SYNTHETIC", flame.scenario, clock(flame.time_s));
     plot.x.label = "east of the map's centre, m";
     plot.y.label = "north of the map's centre, m";
-    const auto margins = plot_area(plot, true);
+    const auto margins = drawing::plot_area(plot, true);
     constexpr int kLongest_px = 640;
     const double scale = kLongest_px / static_cast<double>(std::max(image.cols, image.rows));
     plot.width_px += static_cast<int>(std::lround(scale * image.cols)) - margins[0];
     plot.height_px += static_cast<int>(std::lround(scale * image.rows)) - margins[1];
     plot.image = std::move(image);
-    write_line_plots(path, std::vector{plot});
+    drawing::write_line_plots(path, std::vector{plot});
 }
 
 }  // namespace pyroscene::pipeline

@@ -95,7 +95,7 @@ json pixel_feature(const Ground& ground, int sample, int line) {
               {"along_m", rounded(along_m, 1e3)}}}};
 }
 
-void add_group(const scenario::Acquisition& a, const SceneInputs& in, const sensors::Sensor& sensor,
+void add_group(const scenario::Acquisition& a, const inputs::SceneInputs& in, const sensors::Sensor& sensor,
                const sensors::CameraGroup& group, json& features) {
     const auto image = resolve_geometry(a, in, nullptr, sensor, group);
     const Ground ground{image, in.mean_height_m};
@@ -116,7 +116,7 @@ void add_group(const scenario::Acquisition& a, const SceneInputs& in, const sens
 }  // namespace
 
 std::string footprints_geojson(const scenario::Scenario& scenario) {
-    const auto in = load_scene_inputs(scenario);
+    const auto in = inputs::load_scene_inputs(scenario);
     json features = json::array();
     for (const auto& a : scenario.acquisitions) {
         const auto sensor = sensors::load_sensor(a.sensor);

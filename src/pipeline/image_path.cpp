@@ -39,7 +39,7 @@ sensors::Trajectory flown_path(const Acquisition& a) {
 }
 
 /// Direction in which a pass sees its place.
-sensors::Trajectory pass_path(const Acquisition& a, const SceneInputs& in, const fire::FireState* state,
+sensors::Trajectory pass_path(const Acquisition& a, const inputs::SceneInputs& in, const fire::FireState* state,
                               const sensors::Sensor& sensor, const sensors::ScanLaw& law) {
     if (!sensor.orbit)
         throw input_error(subject(a), fmt::format("platform.pass needs an orbit, and sensor '{}' has none", sensor.id));
@@ -66,7 +66,7 @@ sensors::Trajectory pass_path(const Acquisition& a, const SceneInputs& in, const
 }
 
 /// Corners, edges and centre of the map at its lowest and highest ground.
-std::vector<gis::Geodetic> outline(const SceneInputs& in) {
+std::vector<gis::Geodetic> outline(const inputs::SceneInputs& in) {
     const gis::MapProjection map(in.grid.crs_wkt);
     std::vector<gis::Geodetic> points;
     constexpr int kPerSide = 4;
@@ -81,7 +81,7 @@ std::vector<gis::Geodetic> outline(const SceneInputs& in) {
 
 }  // namespace
 
-sensors::ImageGeometry resolve_geometry(const Acquisition& a, const SceneInputs& in, const fire::FireState* state,
+sensors::ImageGeometry resolve_geometry(const Acquisition& a, const inputs::SceneInputs& in, const fire::FireState* state,
                                         const sensors::Sensor& sensor, const sensors::CameraGroup& group) {
     sensors::ImageGeometry image{.sensor = &sensor, .group = &group, .time_s = a.time_s};
     const bool frame = group.scan.kind == sensors::ScanLaw::Kind::Frame;

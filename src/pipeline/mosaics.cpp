@@ -51,7 +51,7 @@ gis::OutputRaster raster_of(const MosaicJob& job, const MapGrid& grid, std::vect
     out.bands.push_back({"time since start", "s", {}, {}, {}});
     out.bands.push_back({"number of the image", "1", {}, {}, {}});
     out.bands.push_back({"view zenith", "degree", {}, {}, {}});
-    out.acquisition_time = scenario::UtcTime{first.scenario.start.unix_s + first.acquisition.time_s}.iso8601();
+    out.acquisition_time = UtcTime{first.scenario.start.unix_s + first.acquisition.time_s}.iso8601();
     out.metadata = {{"SCENARIO", first.scenario.name},
                     {"MOSAIC", job.mosaic.id},
                     {"SENSOR", first.sensor.id},

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 gis::OutputRaster raster_of(const NativeJob& job) {
     gis::OutputRaster out;
-    out.acquisition_time = scenario::UtcTime{job.unix_s()}.iso8601();
+    out.acquisition_time = UtcTime{job.unix_s()}.iso8601();
     out.metadata = {{"SCENARIO", job.job.scenario.name},
                     {"ACQUISITION", job.job.acquisition.id},
                     {"SENSOR", job.job.sensor.id},
@@ -84,7 +84,7 @@ Json orientation(const NativeJob& job, double residual_px) {
     for (const Vec3& a : axes) rows.push_back({a.x, a.y, a.z});
     return {{"synthetic", true},
             {"image", job.job.acquisition.id + job.job.files.suffix + "_frame.tif"},
-            {"time", scenario::UtcTime{job.unix_s()}.iso8601()},
+            {"time", UtcTime{job.unix_s()}.iso8601()},
             {"position",
              {{"latitude_deg", pose.position.lat_deg},
               {"longitude_deg", pose.position.lon_deg},
@@ -135,11 +135,11 @@ void write_lines(const NativeJob& job) {
     for (int line = 0; line < g.lines; ++line) {
         const auto at = sensors::scan_position_of(g, g.samples / 2, line);
         const auto look = sensors::sightline(g, at.scan, at.u, at.v);
-        text += fmt::format(
-            "{},{},{:.8f},{:.8f},{:.3f},{:.5f},{:.5f},{:.5f}\n", line,
-            scenario::UtcTime{job.job.scenario.start.unix_s + sensors::pixel_time_s(g, g.samples / 2, line)}.iso8601(),
-            look.pose.position.lat_deg, look.pose.position.lon_deg, look.pose.position.h_m,
-            look.pose.heading_rad / kDegree_rad, look.pose.pitch_rad / kDegree_rad, look.pose.roll_rad / kDegree_rad);
+        text += fmt::format("{},{},{:.8f},{:.8f},{:.3f},{:.5f},{:.5f},{:.5f}\n", line,
+                            UtcTime{job.job.scenario.start.unix_s + sensors::pixel_time_s(g, g.samples / 2, line)}.iso8601(),
+                            look.pose.position.lat_deg, look.pose.position.lon_deg, look.pose.position.h_m,
+                            look.pose.heading_rad / kDegree_rad, look.pose.pitch_rad / kDegree_rad,
+                            look.pose.roll_rad / kDegree_rad);
     }
     write_text_file(file_of(job, "_lines.csv"), text);
 }

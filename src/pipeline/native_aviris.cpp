@@ -29,8 +29,7 @@ gis::EnviHeader header(const NativeJob& job, const std::string& what, std::vecto
     h.description = fmt::format("{}; {} of scenario {}, {} (synthetic)", what, job.job.acquisition.id, job.job.scenario.name,
                                 job.job.sensor.name);
     h.band_names = std::move(bands);
-    h.more = {
-        {"sensor type", "AVIRIS"}, {"acquisition time", scenario::UtcTime{job.unix_s()}.iso8601()}, {"synthetic", "true"}};
+    h.more = {{"sensor type", "AVIRIS"}, {"acquisition time", UtcTime{job.unix_s()}.iso8601()}, {"synthetic", "true"}};
     return h;
 }
 

@@ -144,7 +144,7 @@ std::string odl_object(const char* name, const std::string& value) {
 
 std::string core_metadata(const NativeJob& job, const std::string& short_name) {
     const auto [first, last] = time_span_s(job);
-    const auto day = [](double t) { return scenario::UtcTime{t}.iso8601().substr(0, 10); };
+    const auto day = [](double t) { return UtcTime{t}.iso8601().substr(0, 10); };
     const auto clock = [](double t) {
         const double s = std::fmod(t, 86400.0);
         const auto whole = static_cast<int>(s);

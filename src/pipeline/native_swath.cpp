@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/constants.h"
-#include "pipeline/image_channels.h"
+#include "imagery/image_channels.h"
 #include "radiometry/sun.h"
 
 namespace pyroscene::pipeline {
@@ -105,7 +105,7 @@ double radiance_step(const NativeJob& job, std::ptrdiff_t band, double steps) {
 double reflectance_per_radiance(const NativeJob& job, const sensors::Band& band) {
     const auto& centre = job.job.inputs.centre;
     const double d = radiometry::sun_position(job.unix_s(), centre.lat_deg, centre.lon_deg).distance_AU;
-    return kPi * d * d / solar_irradiance_W_m2_um(band.response);
+    return kPi * d * d / imagery::solar_irradiance_W_m2_um(band.response);
 }
 
 std::string granule_time(double unix_s) { return utc_text(unix_s, "%Y%j.%H%M"); }

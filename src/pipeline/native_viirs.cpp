@@ -33,7 +33,7 @@ std::string platform_letters(const std::string& platform) {
 gis::ArrayFile file_of(const NativeJob& job, const Swath& swath, const std::string& short_name) {
     const auto [first, last] = time_span_s(job);
     const auto milliseconds = [](double t) {
-        auto text = scenario::UtcTime{std::floor(t)}.iso8601();
+        auto text = UtcTime{std::floor(t)}.iso8601();
         return text.substr(0, 19) + ".000Z";
     };
     gis::ArrayFile file;

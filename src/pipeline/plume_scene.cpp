@@ -56,7 +56,7 @@ fire::PlumeParameters parameters_of(const Scenario& scenario) {
     return p;
 }
 
-fire::FlameField plume_of_input(const Scenario& scenario, const fire::PlumeParameters& p, const SceneInputs& in,
+fire::FlameField plume_of_input(const Scenario& scenario, const fire::PlumeParameters& p, const inputs::SceneInputs& in,
                                 double time_s) {
     const PlumeSource& source = *scenario.inputs.plume;
     const auto file = file_at(source, time_s);
@@ -75,12 +75,12 @@ fire::FlameField plume_of_input(const Scenario& scenario, const fire::PlumeParam
 
 }  // namespace
 
-fire::FlameField make_plume(const Scenario& scenario, const SceneInputs& in, double time_s) {
+fire::FlameField make_plume(const Scenario& scenario, const inputs::SceneInputs& in, double time_s) {
     const auto p = parameters_of(scenario);
     if (scenario.inputs.plume) return plume_of_input(scenario, p, in, time_s);
     if (!scenario.plume.rise)
         return p.layers.empty() ? fire::FlameField{} : fire::layers_alone(in.terrain_m, p, in.origin_m);
-    const auto frame = load_frame(scenario, in, frame_at(in.frames, time_s, "plume"));
+    const auto frame = inputs::load_frame(scenario, in, inputs::frame_at(in.frames, time_s, "plume"));
     return fire::rising_plume(frame, in.terrain_m, p, in.origin_m);
 }
 

@@ -11,12 +11,12 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "drawing/qgis_style.h"
+#include "drawing/quicklook.h"
 #include "gis/raster_output.h"
 #include "pipeline/fronts.h"
 #include "pipeline/incident_map.h"
 #include "pipeline/native.h"
-#include "pipeline/qgis_style.h"
-#include "pipeline/quicklook.h"
 #include "pipeline/rendered_image.h"
 #include "pipeline/spectrum_file.h"
 #include "pipeline/stac.h"
@@ -80,7 +80,7 @@ Product radiance_product(const RenderedImage& r) {
 gis::OutputRaster raster_of(const ProductJob& job, const Product& product) {
     gis::OutputRaster out;
     out.bands = product.bands;
-    out.acquisition_time = scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
+    out.acquisition_time = UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
     out.metadata = {{"SCENARIO", job.scenario.name},
                     {"ACQUISITION", job.acquisition.id},
                     {"SENSOR", job.sensor.id},
@@ -98,7 +98,7 @@ void write_sensor_geometry(const ProductJob& job, const RenderedImage& r, const 
 }
 
 /// How QGIS shows an ortho product: ranges that are the same for every image of the band.
-RasterStyle style_of(const Product& product, double gsd_m) {
+drawing::RasterStyle style_of(const Product& product, double gsd_m) {
     constexpr double kBest_um = 3.96, kCoarse_m = 200.0;
     std::size_t best = 0;
     const auto off_um = [&](std::size_t k) { return std::abs(product.bands[k].wavelength_um.value_or(0.0) - kBest_um); };
@@ -107,11 +107,12 @@ RasterStyle style_of(const Product& product, double gsd_m) {
     const int band = static_cast<int>(best) + 1;
     const auto& unit = product.bands[best].unit;
     if (product.stem == "radiance")
-        return {band, unit, radiance_colours(product.bands[best].wavelength_um.value_or(kBest_um))};
-    if (product.stem == "brightness_temperature") return {band, unit, inferno(300.0, 1200.0)};
-    if (product.stem == "fractions") return {2, "", inferno(0.0, 1.0)};  // of front
+        return {band, unit, drawing::radiance_colours(product.bands[best].wavelength_um.value_or(kBest_um))};
+    if (product.stem == "brightness_temperature") return {band, unit, drawing::inferno(300.0, 1200.0)};
+    if (product.stem == "fractions") return {2, "", drawing::inferno(0.0, 1.0)};  // of front
     // Power: of the pixel where pixels are as large as those of fire satellites, else per area.
-    return gsd_m >= kCoarse_m ? RasterStyle{2, "MW", power_ladder(250.0)} : RasterStyle{1, "W m-2", power_ladder(5e4)};
+    return gsd_m >= kCoarse_m ? drawing::RasterStyle{2, "MW", drawing::power_ladder(250.0)}
+                              : drawing::RasterStyle{1, "W m-2", drawing::power_ladder(5e4)};
 }
 
 void write_ortho(const ProductJob& job, const RenderedImage& r, const Product& product,
@@ -128,7 +129,7 @@ void write_ortho(const ProductJob& job, const RenderedImage& r, const Product& p
         pixels.insert(pixels.end(), plane.begin(), plane.end());
     }
     gis::write_cog(job.files.file("ortho_" + product.stem), out, std::span<const float>(pixels));
-    write_qgis_style(job.files.file("ortho_" + product.stem), style_of(product, r.gsd_m));
+    drawing::write_qgis_style(job.files.file("ortho_" + product.stem), style_of(product, r.gsd_m));
 }
 
 /// One point per pixel with flame or front in it.
@@ -156,27 +157,26 @@ void write_fire_pixels(const ProductJob& job, const RenderedImage& r, const Prod
     const Json collection = {{"type", "FeatureCollection"},
                              {"name", job.acquisition.id + " fire pixels (synthetic)"},
                              {"synthetic", true},
-                             {"datetime", scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601()},
+                             {"datetime", UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601()},
                              {"features", features}};
     write_text_file(job.files.folder / ("fire_pixels" + job.files.suffix + ".geojson"), collection.dump() + "\n");
 }
 
 /// The model's fire at the frame of the acquisition, as vectors.
 void write_vectors(const ProductJob& job, const std::filesystem::path& output) {
-    const auto frame = frame_at(job.inputs.frames, job.acquisition.time_s, job.acquisition.id);
+    const auto frame = inputs::frame_at(job.inputs.frames, job.acquisition.time_s, job.acquisition.id);
     const auto path = state_path(output, job.inputs.frames[frame].time_s);
     const auto state = read_state(path, job.inputs.grid, {});
     constexpr double kHeat_K = 100.0;  ///< above ambient: what an interpreter would draw as heat
-    write_incident_map(
-        job.files.folder, job.files.suffix,
-        {job.scenario.name, job.acquisition.id, scenario::UtcTime{job.scenario.start.unix_s + state.time_s}.iso8601(),
-         job.scenario.fire.ambient_temperature_K + kHeat_K},
-        state, fronts_path(path));
+    write_incident_map(job.files.folder, job.files.suffix,
+                       {job.scenario.name, job.acquisition.id, UtcTime{job.scenario.start.unix_s + state.time_s}.iso8601(),
+                        job.scenario.fire.ambient_temperature_K + kHeat_K},
+                       state, fronts_path(path));
 }
 
 void write_picture(const ProductJob& job, const RenderedImage& r, const Product& brightness) {
     constexpr std::size_t kMostPanels = 4;
-    std::vector<QuicklookPanel> panels;
+    std::vector<drawing::QuicklookPanel> panels;
     const std::size_t step = (job.bands.size() + kMostPanels - 1) / kMostPanels;
     for (std::size_t k = 0; k < job.bands.size(); k += step) {
         const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
@@ -201,8 +201,8 @@ void write_picture(const ProductJob& job, const RenderedImage& r, const Product&
                           false});
     }
     const auto caption = fmt::format("{}  {}  {}  {}  SYNTHETIC", job.scenario.name, job.acquisition.id, job.sensor.id,
-                                     scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601());
-    write_quicklook(job.files.folder / ("quicklook" + job.files.suffix + ".png"), caption, panels, r.gsd_m);
+                                     UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601());
+    drawing::write_quicklook(job.files.folder / ("quicklook" + job.files.suffix + ".png"), caption, panels, r.gsd_m);
 }
 
 /// An image of one pixel is a spectrum: a table, and a diagram in place of a picture.

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "base/report.h"
+#include "inputs/scene_inputs.h"
 #include "pipeline/output_names.h"
 #include "pipeline/run.h"
-#include "pipeline/scene_inputs.h"
 #include "sensors/image_geometry.h"
 
 namespace pyroscene::pipeline {
@@ -14,7 +14,7 @@ namespace pyroscene::pipeline {
 struct ProductJob {
     const scenario::Scenario& scenario;
     const scenario::Acquisition& acquisition;
-    const SceneInputs& inputs;
+    const inputs::SceneInputs& inputs;
     const sensors::Sensor& sensor;
     const sensors::CameraGroup& group;
     std::vector<int> bands;

@@ -175,7 +175,7 @@ gis::OutputRaster sensor_raster(const GroupJob& job, const std::vector<gis::Grou
     out.geolocation = job.files.geolocation();
     out.control_points = points;
     out.metadata = common_metadata(job);
-    out.acquisition_time = scenario::UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
+    out.acquisition_time = UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
     return out;
 }
 
@@ -370,7 +370,7 @@ Vec3 scene_point(const gis::MapProjection& map, Vec3 origin_m, const gis::Geodet
     return {xy[0] - origin_m.x, xy[1] - origin_m.y, at.h_m - origin_m.z};
 }
 
-double farthest_corner_m(const SceneInputs& in, Vec3 from_m) {
+double farthest_corner_m(const inputs::SceneInputs& in, Vec3 from_m) {
     const auto& g = in.grid;
     double farthest_m = 0.0;
     for (const double x : {0.0, g.cols * g.cell_m})

@@ -12,7 +12,7 @@ namespace pyroscene::pipeline {
 struct GroupJob {
     const scenario::Scenario& scenario;
     const scenario::Acquisition& acquisition;
-    const SceneInputs& inputs;
+    const inputs::SceneInputs& inputs;
     const FireScene& fire;
     const render::TerrainMesh& terrain;
     const sensors::Sensor& sensor;

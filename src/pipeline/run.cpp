@@ -35,10 +35,10 @@ struct Session {
     const RunOptions& options;
     RunReport& report;
     Fingerprints fingerprints;
-    SceneInputs inputs;
+    inputs::SceneInputs inputs;
 
     Session(const Scenario& s, const RunOptions& o, RunReport& r)
-        : scenario(s), options(o), report(r), fingerprints(s), inputs(load_scene_inputs(s, [this](double fraction) {
+        : scenario(s), options(o), report(r), fingerprints(s), inputs(inputs::load_scene_inputs(s, [this](double fraction) {
               stop_if_cancelled();
               progress("spread", fraction);
           })) {}
@@ -55,9 +55,7 @@ struct Session {
     void progress(const std::string& step, double fraction) const {
         if (options.on_progress) options.on_progress(step, fraction);
     }
-    [[nodiscard]] std::string utc(double time_s) const {
-        return scenario::UtcTime{scenario.start.unix_s + time_s}.iso8601();
-    }
+    [[nodiscard]] std::string utc(double time_s) const { return UtcTime{scenario.start.unix_s + time_s}.iso8601(); }
 };
 
 bool is_current(const std::filesystem::path& file, const std::string& fingerprint, const RunOptions& options) {
@@ -156,7 +154,7 @@ void prepare_phase(Session& s) {
     for (std::size_t i = first; i < count; ++i) {
         s.stop_if_cancelled();
         s.progress("prepare", static_cast<double>(i) / static_cast<double>(count));
-        const auto frame = load_frame(s.scenario, s.inputs, i);
+        const auto frame = inputs::load_frame(s.scenario, s.inputs, i);
         auto state = fire::advance(previous ? &*previous : nullptr, frame, s.scenario.fire);
         count_flames(s.report, state.flame_counts);
         write_fronts(s, i, state, frame.heat_flux_W_m2);
@@ -169,7 +167,7 @@ void prepare_phase(Session& s) {
 }
 
 fire::FireState state_for(const Session& s, const Acquisition& acquisition) {
-    const auto frame = frame_at(s.inputs.frames, acquisition.time_s, acquisition.id);
+    const auto frame = inputs::frame_at(s.inputs.frames, acquisition.time_s, acquisition.id);
     const auto path = state_path(s.options.output, s.inputs.frames[frame].time_s);
     if (!is_current(path, s.fingerprints.state(s.inputs.frames[frame].time_s), RunOptions{}))
         throw input_error(path.string(), "no current fire state for this scenario; run 'pyroscene prepare' first");

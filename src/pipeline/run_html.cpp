@@ -11,13 +11,13 @@
 #include "analysis/fire_energy.h"
 #include "base/csv.h"
 #include "base/files.h"
+#include "drawing/html_page.h"
+#include "drawing/line_plot.h"
 #include "gis/geodesy.h"
 #include "gis/raster_output.h"
 #include "pipeline/fire_map.h"
 #include "pipeline/hash.h"
-#include "pipeline/html_page.h"
 #include "pipeline/image_digest.h"
-#include "pipeline/line_plot.h"
 #include "pipeline/stac.h"
 #include "pipeline/state_file.h"
 
@@ -45,7 +45,7 @@ std::string number(double value, const char* unit = "") {
 }
 
 std::string utc(const scenario::Scenario& scenario, double time_s) {
-    return scenario::UtcTime{scenario.start.unix_s + time_s}.iso8601();
+    return UtcTime{scenario.start.unix_s + time_s}.iso8601();
 }
 
 std::vector<std::string> fraction_heads(const ImageDigest& digest) {
@@ -68,18 +68,18 @@ std::string band_label(const gis::OutputBand& band, std::size_t k) {
     return band.wavelength_um ? fmt::format("{} {:.3g} um", name, *band.wavelength_um) : name;
 }
 
-void show_spectra(HtmlPage& page, const ShownImage& shown) {
+void show_spectra(drawing::HtmlPage& page, const ShownImage& shown) {
     const auto& digest = shown.digest;
     page.heading(4, "Spectra of picked pixels");
-    LinePlot plot{"",
-                  {digest.bands.size() > 1 ? "wavelength [um]" : "wavelength [um], one band", false, {}, {}},
-                  {"radiance [W m-2 sr-1 um-1]", true, {}, {}},
-                  {},
-                  900,
-                  420,
-                  {}};
+    drawing::LinePlot plot{"",
+                           {digest.bands.size() > 1 ? "wavelength [um]" : "wavelength [um], one band", false, {}, {}},
+                           {"radiance [W m-2 sr-1 um-1]", true, {}, {}},
+                           {},
+                           900,
+                           420,
+                           {}};
     for (const auto& p : digest.picked) {
-        PlotSeries series{p.kind, {}, p.radiance_W_m2_sr_um, digest.bands.size() == 1};
+        drawing::PlotSeries series{p.kind, {}, p.radiance_W_m2_sr_um, digest.bands.size() == 1};
         for (std::size_t b = 0; b < digest.bands.size(); ++b)
             series.x.push_back(digest.bands[b].wavelength_um.value_or(static_cast<double>(b + 1)));
         plot.series.push_back(std::move(series));
@@ -87,7 +87,7 @@ void show_spectra(HtmlPage& page, const ShownImage& shown) {
     const bool positive =
         std::any_of(digest.statistics.begin(), digest.statistics.end(), [](const auto& s) { return s.highest > 0.0; });
     if (positive && !plot.series.empty())
-        page.picture(line_plots_png(std::span(&plot, 1)), "spectra of picked pixels of " + shown.id(),
+        page.picture(drawing::line_plots_png(std::span(&plot, 1)), "spectra of picked pixels of " + shown.id(),
                      "Radiance as the detector reports it, band by band.");
     std::vector<std::string> head{"pixel", "sample", "line", "longitude", "latitude"};
     for (const auto& name : fraction_heads(digest)) head.push_back(name + " %");
@@ -109,16 +109,16 @@ void show_spectra(HtmlPage& page, const ShownImage& shown) {
     page.table(radiance_head, radiances);
 }
 
-void show_histogram(HtmlPage& page, const ShownImage& shown) {
+void show_histogram(drawing::HtmlPage& page, const ShownImage& shown) {
     const auto& digest = shown.digest;
-    LinePlot plot{"", {"radiance [W m-2 sr-1 um-1]", true, {}, {}}, {"pixels", true, 0.8, {}}, {}, 900, 360, {}};
+    drawing::LinePlot plot{"", {"radiance [W m-2 sr-1 um-1]", true, {}, {}}, {"pixels", true, 0.8, {}}, {}, 900, 360, {}};
     for (const auto b : some_bands(digest.bands.size(), 4))
         if (!digest.statistics[b].counts.empty())
             plot.series.push_back(
                 {band_label(digest.bands[b], b), digest.statistics[b].bin_centres, digest.statistics[b].counts, false});
     page.heading(4, "Histogram");
     if (plot.series.empty()) return page.paragraph("No band holds a radiance above 0.");
-    page.picture(line_plots_png(std::span(&plot, 1)), "histogram of radiance of " + shown.id(),
+    page.picture(drawing::line_plots_png(std::span(&plot, 1)), "histogram of radiance of " + shown.id(),
                  "Pixels per bin of radiance, 80 bins of equal ratio.");
     std::vector<std::vector<std::string>> rows;
     for (const auto b : some_bands(digest.bands.size(), 12)) {
@@ -128,7 +128,7 @@ void show_histogram(HtmlPage& page, const ShownImage& shown) {
     page.table({"band", "lowest", "mean", "highest, W m-2 sr-1 um-1"}, rows);
 }
 
-void show_image(HtmlPage& page, const scenario::Scenario& scenario, const ShownImage& shown) {
+void show_image(drawing::HtmlPage& page, const scenario::Scenario& scenario, const ShownImage& shown) {
     const auto& image = *shown.image;
     const auto& digest = shown.digest;
     page.heading(3, shown.id(), shown.id());
@@ -157,7 +157,7 @@ void show_image(HtmlPage& page, const scenario::Scenario& scenario, const ShownI
     show_histogram(page, shown);
 }
 
-std::vector<MapOutline> footprints(const SceneInputs& inputs, const std::vector<ShownImage>& images) {
+std::vector<MapOutline> footprints(const inputs::SceneInputs& inputs, const std::vector<ShownImage>& images) {
     const gis::MapProjection projection(inputs.grid.crs_wkt);
     std::vector<MapOutline> outlines;
     for (const auto& shown : images) {
@@ -179,11 +179,11 @@ std::vector<MapOutline> footprints(const SceneInputs& inputs, const std::vector<
     return outlines;
 }
 
-void show_map(HtmlPage& page, const scenario::Scenario& scenario, const SceneInputs& inputs, const RunOptions& options,
-              const std::vector<ShownImage>& images) {
+void show_map(drawing::HtmlPage& page, const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
+              const RunOptions& options, const std::vector<ShownImage>& images) {
     double time_s = images.front().image->acquisition->time_s;
     for (const auto& shown : images) time_s = std::max(time_s, shown.image->acquisition->time_s);
-    const auto frame = inputs.frames[frame_at(inputs.frames, time_s, images.front().image->acquisition->id)].time_s;
+    const auto frame = inputs.frames[inputs::frame_at(inputs.frames, time_s, images.front().image->acquisition->id)].time_s;
     const auto path = state_path(options.output, frame);
     if (!std::filesystem::exists(path)) return;
     const auto state = read_state(path, inputs.grid, inputs.arrival_time_s);
@@ -201,9 +201,9 @@ double energy(const std::map<std::string, double>& values, const std::string& ac
 }
 
 /// Heat release of all frames as their state files tell it, seen and radiated power of the acquisitions.
-void show_power(HtmlPage& page, const SceneInputs& inputs, const RunOptions& options, const RunReport& report,
-                const std::vector<ShownImage>& images) {
-    PlotSeries released{"heat release, frames", {}, {}, false}, radiated{"front and flame radiate", {}, {}, true},
+void show_power(drawing::HtmlPage& page, const inputs::SceneInputs& inputs, const RunOptions& options,
+                const RunReport& report, const std::vector<ShownImage>& images) {
+    drawing::PlotSeries released{"heat release, frames", {}, {}, false}, radiated{"front and flame radiate", {}, {}, true},
         seen{"fire radiative power seen", {}, {}, true};
     for (const auto& frame : inputs.frames) {
         const auto path = state_path(options.output, frame.time_s);
@@ -221,26 +221,26 @@ void show_power(HtmlPage& page, const SceneInputs& inputs, const RunOptions& opt
         seen.x.push_back(a.time_s / 60.0);
         seen.y.push_back(*shown.digest.seen_frp_MW);
     }
-    LinePlot plot{"",
-                  {"minutes after the start", false, {}, {}},
-                  {"power [MW]", true, {}, {}},
-                  {std::move(released), std::move(radiated), std::move(seen)},
-                  900,
-                  400,
-                  {}};
+    drawing::LinePlot plot{"",
+                           {"minutes after the start", false, {}, {}},
+                           {"power [MW]", true, {}, {}},
+                           {std::move(released), std::move(radiated), std::move(seen)},
+                           900,
+                           400,
+                           {}};
     const bool any = std::any_of(plot.series.begin(), plot.series.end(), [](const auto& series) {
         return std::any_of(series.y.begin(), series.y.end(), [](double y) { return y > 0.0; });
     });
     if (!any) return;
     page.heading(2, "Power over time", "power");
     page.picture(
-        line_plots_png(std::span(&plot, 1)), "power over time",
+        drawing::line_plots_png(std::span(&plot, 1)), "power over time",
         "Heat that the frames release, what front and flame radiate of it, and the fire radiative power that each image "
         "sees (true, without noise and background; less where the image does not hold the whole fire).");
 }
 
 /// Energy that the images of one sensor saw radiated, where there are two or more of different times.
-void show_radiative_energy(HtmlPage& page, const std::vector<ShownImage>& images) {
+void show_radiative_energy(drawing::HtmlPage& page, const std::vector<ShownImage>& images) {
     std::map<std::string, std::map<double, double>> power_MW;  // by sensor, then by time
     for (const auto& shown : images)
         if (shown.digest.seen_frp_MW)
@@ -262,7 +262,7 @@ void show_radiative_energy(HtmlPage& page, const std::vector<ShownImage>& images
     page.paragraph("Seen fire radiative power, integrated over time by trapezoids between images.");
 }
 
-void show_energy(HtmlPage& page, const RunReport& report, const std::vector<ShownImage>& images) {
+void show_energy(drawing::HtmlPage& page, const RunReport& report, const std::vector<ShownImage>& images) {
     const auto values = report.values();
     std::vector<std::vector<std::string>> rows;
     for (const auto& shown : images) {
@@ -283,7 +283,7 @@ void show_energy(HtmlPage& page, const RunReport& report, const std::vector<Show
     page.paragraph("Front and flame: what they emit into all directions (flames optically thin). Scar: above ambient.");
 }
 
-void show_overview(HtmlPage& page, const scenario::Scenario& scenario, const SceneInputs& inputs,
+void show_overview(drawing::HtmlPage& page, const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
                    const std::vector<ShownImage>& images, const RunReport& report) {
     page.paragraph((scenario.title.empty() ? std::string() : scenario.title + ". ") +
                    "Synthetic images of a simulated wildland fire, made by Pyroscene.");
@@ -307,8 +307,8 @@ void show_overview(HtmlPage& page, const scenario::Scenario& scenario, const Sce
 
 }  // namespace
 
-void write_html_report(const scenario::Scenario& scenario, const SceneInputs& inputs, const std::vector<ReportImage>& images,
-                       const RunOptions& options, const RunReport& report) {
+void write_html_report(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
+                       const std::vector<ReportImage>& images, const RunOptions& options, const RunReport& report) {
     if (images.empty()) return;
     const auto path = options.output / "report.html";
     std::string prints;
@@ -323,7 +323,7 @@ void write_html_report(const scenario::Scenario& scenario, const SceneInputs& in
         auto json = Json::parse(item, nullptr, false);
         shown.push_back({&image, digest_image(image.files), json.is_discarded() ? Json::object() : std::move(json)});
     }
-    HtmlPage page(scenario.name, {{"generator", "pyroscene " + version()}, {"fingerprint", fingerprint}});
+    drawing::HtmlPage page(scenario.name, {{"generator", "pyroscene " + version()}, {"fingerprint", fingerprint}});
     show_overview(page, scenario, inputs, shown, report);
     show_map(page, scenario, inputs, options, shown);
     show_power(page, inputs, options, report, shown);

@@ -23,7 +23,7 @@ void write_run_report(const scenario::Scenario& scenario, const RunOptions& opti
     json["status"] = failure.empty() ? "done" : "failed";
     if (!failure.empty()) json["failure"] = failure;
     const double now_s = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-    json["finished"] = scenario::UtcTime{std::floor(now_s)}.iso8601();
+    json["finished"] = UtcTime{std::floor(now_s)}.iso8601();
     json["scenario"] = {{"name", scenario.name},
                         {"file", scenario.path.string()},
                         {"physics", scenario.physics == fire::Physics::Thesis ? "thesis" : "default"},

@@ -11,7 +11,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "pipeline/line_plot.h"
+#include "drawing/line_plot.h"
 #include "pipeline/run.h"
 
 namespace pyroscene::pipeline {
@@ -31,21 +31,21 @@ std::string find_column(const CsvTable& table, const char* const (&names)[N]) {
 
 double zero_K(const ScarRecordFile& file) { return file.celsius ? kZeroCelsius_K : 0.0; }
 
-LinePlot curve_plot(const ScarRecordFile& file, const fire::ScarFit& fit, const std::string& title, double last_s) {
+drawing::LinePlot curve_plot(const ScarRecordFile& file, const fire::ScarFit& fit, const std::string& title, double last_s) {
     constexpr int kSteps = 400;
-    PlotSeries data{"record", file.record.time_s, {}, true}, curve{"fitted curve", {}, {}};
+    drawing::PlotSeries data{"record", file.record.time_s, {}, true}, curve{"fitted curve", {}, {}};
     for (const double T_K : file.record.temperature_K) data.y.push_back(T_K - zero_K(file));
     for (int i = 0; i <= kSteps; ++i) {
         curve.x.push_back(last_s * i / kSteps);
         curve.y.push_back(fire::scar_temperature_K(fit.cooling, curve.x.back()) - zero_K(file));
     }
-    LinePlot plot{title, {"time since arrival of the fire, s", false, {}, {}}, {}, {data, curve}, 900, 460};
+    drawing::LinePlot plot{title, {"time since arrival of the fire, s", false, {}, {}}, {}, {data, curve}, 900, 460};
     plot.y.label = file.celsius ? "temperature, deg C" : "temperature, K";
     return plot;
 }
 
-LinePlot residual_plot(const ScarRecordFile& file, const fire::ScarFit& fit, double last_s) {
-    PlotSeries zero{"", {0.0, last_s}, {0.0, 0.0}}, residual{"", file.record.time_s, {}, true};
+drawing::LinePlot residual_plot(const ScarRecordFile& file, const fire::ScarFit& fit, double last_s) {
+    drawing::PlotSeries zero{"", {0.0, last_s}, {0.0, 0.0}}, residual{"", file.record.time_s, {}, true};
     for (std::size_t i = 0; i < file.record.time_s.size(); ++i)
         residual.y.push_back(file.record.temperature_K[i] - fire::scar_temperature_K(fit.cooling, file.record.time_s[i]));
     return {fmt::format("record minus curve, rms {:.4g} K", fit.rms_K),
@@ -156,8 +156,8 @@ std::string write_scar_fit(const std::filesystem::path& prefix, const std::files
     const double last_s = *std::max_element(file.record.time_s.begin(), file.record.time_s.end());
     const auto title = fmt::format("{}: {} by {}{}", csv.filename().string(), fire::scar_model(fit.model).name, algorithm,
                                    fit.converged ? "" : " - NOT CONVERGED");
-    const LinePlot plots[] = {curve_plot(file, fit, title, last_s), residual_plot(file, fit, last_s)};
-    write_line_plots(named(".png"), plots);
+    const drawing::LinePlot plots[] = {curve_plot(file, fit, title, last_s), residual_plot(file, fit, last_s)};
+    drawing::write_line_plots(named(".png"), plots);
     write_text_file(named(".json"), json_of(csv, file, fit, algorithm).dump(2) + "\n");
     std::string written = named(".png").string() + "\n" + named(".json").string() + "\n";
     if (!fit.converged) return written;

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/files.h"
-#include "pipeline/line_plot.h"
+#include "drawing/line_plot.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -35,20 +35,20 @@ void write_spectrum_table(const std::filesystem::path& path, const PixelSpectrum
 }
 
 void write_spectrum_plot(const std::filesystem::path& path, const PixelSpectrum& s) {
-    PlotSeries radiance{"", {}, {}}, temperature{"", {}, {}};
+    drawing::PlotSeries radiance{"", {}, {}}, temperature{"", {}, {}};
     for (const std::size_t b : by_wavelength(s)) {
         for (auto* series : {&radiance, &temperature}) series->x.push_back(s.bands[b]->centre_um);
         radiance.y.push_back(s.radiance_W_m2_sr_um[b]);
         temperature.y.push_back(s.brightness_temperature_K[b]);
     }
-    const PlotAxis wavelength{"wavelength, um", false, {}, {}};
-    const auto diagram = [&](const std::string& title, const char* unit, const PlotSeries& series) {
-        return LinePlot{title, wavelength, {unit, false, {}, {}}, {series}, 900, 360, {}};
+    const drawing::PlotAxis wavelength{"wavelength, um", false, {}, {}};
+    const auto diagram = [&](const std::string& title, const char* unit, const drawing::PlotSeries& series) {
+        return drawing::LinePlot{title, wavelength, {unit, false, {}, {}}, {series}, 900, 360, {}};
     };
-    std::vector<LinePlot> plots{diagram(s.title, "radiance, W m-2 sr-1 um-1", radiance)};
+    std::vector<drawing::LinePlot> plots{diagram(s.title, "radiance, W m-2 sr-1 um-1", radiance)};
     if (std::any_of(temperature.y.begin(), temperature.y.end(), [](double v) { return std::isfinite(v); }))
         plots.push_back(diagram("", "brightness temperature, K", temperature));
-    write_line_plots(path, plots);
+    drawing::write_line_plots(path, plots);
 }
 
 }  // namespace pyroscene::pipeline

@@ -28,7 +28,7 @@ void write(const std::filesystem::path& path, const Raster<float>& raster, const
     gis::write_geotiff(path, out, std::span<const float>(raster.values));
 }
 
-void check_size(const ModelledFire& fire) {
+void check_size(const inputs::ModelledFire& fire) {
     constexpr double kMost_bytes = 8e9;
     const double bytes =
         4.0 * static_cast<double>(fire.frames_s.size() + 1) * static_cast<double>(fire.fuel_load_kg_m2.grid.size());
@@ -50,14 +50,15 @@ double largest(const std::optional<Raster<float>>& raster) {
 
 }  // namespace
 
-void write_front_rasters(const ModelledFire& fire, const std::filesystem::path& folder, const std::string& fingerprint) {
+void write_front_rasters(const inputs::ModelledFire& fire, const std::filesystem::path& folder,
+                         const std::string& fingerprint) {
     write(folder / "arrival.tif", fire.ground.arrival_time_s, fingerprint);
     if (fire.spread_rate_m_s) write(folder / "spread_rate.tif", *fire.spread_rate_m_s, fingerprint);
     if (fire.fireline_intensity_W_m) write(folder / "fireline_intensity.tif", *fire.fireline_intensity_W_m, fingerprint);
     if (fire.flame_length_m) write(folder / "flame_length.tif", *fire.flame_length_m, fingerprint);
 }
 
-void write_fire_frames(const ModelledFire& fire, const std::filesystem::path& folder, const std::string& fingerprint,
+void write_fire_frames(const inputs::ModelledFire& fire, const std::filesystem::path& folder, const std::string& fingerprint,
                        const std::string& utc, const std::function<void(double)>& on_progress) {
     check_size(fire);
     const MapGrid& grid = fire.fuel_load_kg_m2.grid;
@@ -70,7 +71,8 @@ void write_fire_frames(const ModelledFire& fire, const std::filesystem::path& fo
     for (std::size_t i = 0; i < fire.frames_s.size(); ++i) {
         on_progress(static_cast<double>(i) / static_cast<double>(fire.frames_s.size()));
         const auto time = fmt::format("{}", fire.frames_s[i]);
-        const auto now = heat_flux_W_m2(fire, fire.frames_s[i]), left = fuel_left_kg_m2(fire, fire.frames_s[i]);
+        const auto now = inputs::heat_flux_W_m2(fire, fire.frames_s[i]),
+                   left = inputs::fuel_left_kg_m2(fire, fire.frames_s[i]);
         flux.bands.push_back({"heat_flux " + time + " s", "W m-2", {}, {}, {{"time_s", time}}});
         fuel.bands.push_back({"fuel_load " + time + " s", "kg m-2", {}, {}, {{"time_s", time}}});
         flux_values.insert(flux_values.end(), now.values.begin(), now.values.end());
@@ -80,7 +82,7 @@ void write_fire_frames(const ModelledFire& fire, const std::filesystem::path& fo
     gis::write_geotiff(folder / "fuel_load.tif", fuel, std::span<const float>(fuel_values));
 }
 
-void record_spread(RunReport& report, const ModelledFire& fire) {
+void record_spread(RunReport& report, const inputs::ModelledFire& fire) {
     const double end_s = fire.frames_s.back();
     const auto& arrival = fire.ground.arrival_time_s;
     const auto burnt = std::count_if(arrival.values.begin(), arrival.values.end(), [](float t) { return !std::isnan(t); });
@@ -88,10 +90,10 @@ void record_spread(RunReport& report, const ModelledFire& fire) {
     report.record("spread/largest_rate_m_s", largest(fire.spread_rate_m_s));
     report.record("spread/largest_fireline_intensity_kW_m", 1e-3 * largest(fire.fireline_intensity_W_m));
     report.record("spread/largest_flame_length_m", largest(fire.flame_length_m));
-    report.record("spread/heat_released_J", heat_released_J(fire, end_s));
+    report.record("spread/heat_released_J", inputs::heat_released_J(fire, end_s));
     if (fire.cells_with_limited_wind > 0)
         report.count("spread_cells_with_limited_wind", static_cast<std::int64_t>(fire.cells_with_limited_wind));
-    const auto left = fuel_left_kg_m2(fire, end_s);
+    const auto left = inputs::fuel_left_kg_m2(fire, end_s);
     double burnt_kg_m2 = 0.0;
     for (std::size_t i = 0; i < left.values.size(); ++i)
         burnt_kg_m2 += static_cast<double>(fire.fuel_load_kg_m2.values[i]) - left.values[i];

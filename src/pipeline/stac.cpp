@@ -90,7 +90,7 @@ void write_stac_item(const ProductJob& job, const StacImage& image) {
     Json ring = Json::array();
     for (const auto& point : image.footprint_lon_lat) ring.push_back(point);
     const auto& grid = image.ortho_grid;
-    Json properties = {{"datetime", scenario::UtcTime{job.scenario.start.unix_s + a.time_s}.iso8601()},
+    Json properties = {{"datetime", UtcTime{job.scenario.start.unix_s + a.time_s}.iso8601()},
                        {"title", fmt::format("{} {} (synthetic)", job.scenario.name, a.id)},
                        {"platform", job.sensor.platform_name},
                        {"instruments", Json::array({job.sensor.id})},

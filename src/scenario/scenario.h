@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/flame_gas.h"
+#include "base/time.h"
 #include "fire/flame_field.h"
 #include "fire/plume.h"
 #include "fire/state.h"
@@ -54,14 +55,6 @@ struct Inputs {
     std::optional<CoverSource> cover;                                           ///< absent = surface.unburned everywhere
     std::optional<PlumeSource> plume;
 };
-
-/// Days since 1970 arithmetic is done once, here: seconds since the Unix epoch, UTC.
-struct UtcTime {
-    double unix_s = 0.0;
-    [[nodiscard]] std::string iso8601() const;
-};
-/// Parses "2017-07-15T22:00:00Z" (seconds and fraction optional, only Z). nullopt when it is none.
-std::optional<UtcTime> parse_utc(const std::string& text);
 
 struct AtmosphereSource {
     std::string model = "midlatitude_summer";  ///< "none" = vacuum

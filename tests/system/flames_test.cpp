@@ -9,9 +9,9 @@
 #include "base/csv.h"
 #include "fire/flame_height.h"
 #include "gis/raster_input.h"
-#include "pipeline/front_inputs.h"
+#include "inputs/front_inputs.h"
+#include "inputs/scene_inputs.h"
 #include "pipeline/run.h"
-#include "pipeline/scene_inputs.h"
 #include "pipeline/state_file.h"
 #include "system/support.h"
 
@@ -105,7 +105,7 @@ TEST(CalcFlames, TablesAndMistakes) {
 
 // Residence times of the fire-behaviour program whose tables are shipped (surface runs of six fuel models).
 TEST(FuelModels, HaveTheResidenceTimesOfTheReference) {
-    const auto anderson = pipeline::fuel_residence_times_s("fbfm13"), scott = pipeline::fuel_residence_times_s("fbfm40");
+    const auto anderson = inputs::fuel_residence_times_s("fbfm13"), scott = inputs::fuel_residence_times_s("fbfm40");
     EXPECT_EQ(anderson.size(), 13U);
     EXPECT_EQ(scott.size(), 40U);
     EXPECT_NEAR(anderson.at(3), 15.36, 1e-5);
@@ -150,7 +150,7 @@ protected:
         options.output = folder_ / "out";
         const auto scenario = scenario::load(file);
         pipeline::prepare(scenario, options, report);
-        return pipeline::read_state(pipeline::state_path(folder_ / "out", 260.0), pipeline::load_scene_inputs(scenario).grid,
+        return pipeline::read_state(pipeline::state_path(folder_ / "out", 260.0), inputs::load_scene_inputs(scenario).grid,
                                     {});
     }
     fire::FireState prepare(const std::string& inputs, const std::string& fire) {

@@ -6,10 +6,10 @@
 
 #include "base/constants.h"
 #include "gis/raster_input.h"
+#include "inputs/load_scenario.h"
+#include "inputs/scene_inputs.h"
+#include "inputs/wind_inputs.h"
 #include "pipeline/fingerprint.h"
-#include "pipeline/load_scenario.h"
-#include "pipeline/scene_inputs.h"
-#include "pipeline/wind_inputs.h"
 #include "system/support.h"
 
 namespace pyroscene::test {
@@ -25,7 +25,7 @@ start: 2017-07-15T22:00:00Z
 acquisitions:
   - {id: a, sensor: wasp, time_s: 600, platform: {over: centre, altitude_agl_m: 3000}}
 )";
-        return pipeline::load_scenario(file);
+        return inputs::load_scenario(file);
     }
     static std::string lolo(const std::string& name) {
         return (source_folder() / "scenarios" / "lolo_peak" / name).string();
@@ -45,7 +45,7 @@ TEST_F(LandscapeScenario, IsItsBandsNamedOneByOne) {
                                          ", band: 4, table: fbfm40}\n    canopy: {cover: {file: " + file +
                                          ", band: 5}, height_m: {file: " + file + ", band: 6, scale: 0.1}}\n" + kFire);
     EXPECT_TRUE(whole.notes.empty());
-    const auto a = pipeline::load_scene_inputs(whole), b = pipeline::load_scene_inputs(parts);
+    const auto a = inputs::load_scene_inputs(whole), b = inputs::load_scene_inputs(parts);
     EXPECT_EQ(a.grid, b.grid);
     EXPECT_EQ(a.terrain_m.values, b.terrain_m.values);
     EXPECT_EQ(a.cover.values, b.cover.values);
@@ -76,7 +76,7 @@ TEST_F(LandscapeScenario, GivesAFireOfAnotherModelItsFuel) {
 
 TEST_F(LandscapeScenario, FilesAreThoseOnDisk) {
     const auto s = load("files", "  landscape: {file: " + lolo("canyon.lcp") + ", scheme: fbfm40}\n  spread:\n" + kFire);
-    const auto files = pipeline::input_files(s);
+    const auto files = inputs::input_files(s);
     EXPECT_EQ(files, std::vector<std::filesystem::path>{lolo("canyon.lcp")});
 }
 
@@ -97,12 +97,12 @@ TEST_F(LandscapeScenario, WindOfAStationChangesRowByRow) {
     auto s = load("station", "  landscape: {file: " + lolo("canyon.lcp") + ", scheme: fbfm40}\n  spread:\n" + kFire);
     s.inputs.wind = scenario::WindSource{};
     s.inputs.wind->table = scratch / "station.csv";
-    EXPECT_EQ(pipeline::wind_times_s(s), (std::vector{600.0, 1800.0}));
+    EXPECT_EQ(inputs::wind_times_s(s), (std::vector{600.0, 1800.0}));
     const auto grid = gis::make_map_grid(lolo("dem.tif"), {}, {});
     // Map north lies 2.1 deg off true north here: convergence = (114.14 W - 117 W) sin 46.69 N.
     const double turn = (117.0 - 114.1426) * std::sin(46.6906 * kDegree_rad) * kDegree_rad;
     const auto blows = [&](double time_s, double east, double north) {
-        const auto wind = pipeline::wind_at(s, grid, 1, 0, time_s);
+        const auto wind = inputs::wind_at(s, grid, 1, 0, time_s);
         EXPECT_NEAR(wind.east_m_s.values[0], east * std::cos(turn) - north * std::sin(turn), 2e-3) << time_s;
         EXPECT_NEAR(wind.north_m_s.values[0], east * std::sin(turn) + north * std::cos(turn), 2e-3) << time_s;
     };

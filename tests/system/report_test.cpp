@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/files.h"
-#include "pipeline/html_page.h"
+#include "drawing/html_page.h"
 #include "pipeline/image_digest.h"
 #include "system/support.h"
 
@@ -48,7 +48,7 @@ TEST(RunReportPage, HoldsTheRunAndNeedsNothingElse) {
     EXPECT_NE(html.find(fmt::format("<dd>{:.4g} MW</dd>", sum_MW)), std::string::npos) << sum_MW;
 
     // The scenario's text is shown as text: its quotes and ampersands are entities.
-    EXPECT_NE(html.find(pipeline::html_escaped(read_text_file(scenario))), std::string::npos);
+    EXPECT_NE(html.find(drawing::html_escaped(read_text_file(scenario))), std::string::npos);
 
     // A second run finds the page done; one that is told to redo the products writes it anew with the same budget of energy.
     const auto written = std::filesystem::last_write_time(page);
@@ -150,8 +150,8 @@ TEST_F(Digest, CountsEveryPixelOnce) {
 }
 
 TEST(HtmlPage, EscapesWhatItIsTold) {
-    EXPECT_EQ(pipeline::html_escaped("a<b & \"c\">"), "a&lt;b &amp; &quot;c&quot;&gt;");
-    pipeline::HtmlPage page("<x>");
+    EXPECT_EQ(drawing::html_escaped("a<b & \"c\">"), "a&lt;b &amp; &quot;c&quot;&gt;");
+    drawing::HtmlPage page("<x>");
     page.table({"<head>"}, {{"<cell>"}});
     EXPECT_EQ(page.text().find("<cell>"), std::string::npos);
     EXPECT_NE(page.text().find("&lt;cell&gt;"), std::string::npos);

@@ -11,8 +11,8 @@
 #include "fire/burn_out.h"
 #include "gis/crs.h"
 #include "gis/raster_input.h"
+#include "inputs/spread_model.h"
 #include "pipeline/run.h"
-#include "pipeline/spread_model.h"
 #include "spread/fuel_model.h"
 #include "system/support.h"
 

@@ -9,7 +9,7 @@
 #include "gis/geodesy.h"
 #include "gis/raster_input.h"
 #include "gis/raster_output.h"
-#include "pipeline/load_scenario.h"
+#include "inputs/load_scenario.h"
 #include "system/support.h"
 
 namespace pyroscene::test {
@@ -72,7 +72,7 @@ std::array<int, 2> shift_between(const Fire& a, const Fire& b) {
 }
 
 Raster<float> terrain_of(const std::filesystem::path& scenario) {
-    const auto loaded = pipeline::load_scenario(scenario);
+    const auto loaded = inputs::load_scenario(scenario);
     const auto& file = loaded.inputs.terrain.files.front();
     return gis::read_band({file, 1, gis::Resampling::Bilinear, "terrain", "m"}, gis::make_map_grid(file, {}, {}));
 }

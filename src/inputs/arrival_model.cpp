@@ -1,0 +1,125 @@
+#include "inputs/arrival_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "fire/gradients.h"
+#include "gis/raster_input.h"
+#include "gis/units.h"
+#include "inputs/fuel_cells.h"
+
+namespace pyroscene::inputs {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+/// Reads a raster in the unit that the scenario says; a tag of the file must say the same.
+Raster<float> read(const scenario::UnitRaster& source, const char* name, const char* unit, const MapGrid& grid) {
+    const auto& file = source.raster.files.front();
+    const int band = source.raster.bands.empty() ? 1 : source.raster.bands.front();
+    const auto said = gis::unit_conversion(source.unit, unit);
+    if (!said) throw input_error(file.string(), fmt::format("unit '{}' is none of a {}", source.unit, name));
+    const auto info = gis::read_info(file);
+    if (band >= 1 && band <= static_cast<int>(info.bands.size())) {
+        const auto& tag = info.bands[static_cast<std::size_t>(band) - 1].unit;
+        const auto tagged = gis::unit_conversion(tag, unit);
+        if (!tag.empty() && (!tagged || std::abs(tagged->scale / said->scale - 1.0) > 1e-6))
+            throw input_error(file.string(),
+                              fmt::format("band {} says its unit is '{}', the scenario says '{}'", band, tag, source.unit));
+    }
+    auto raster = gis::read_band({file, band, gis::Resampling::Nearest, name, ""}, grid);
+    raster.unit = unit;
+    for (float& v : raster.values) v = static_cast<float>(v * said->scale + said->offset);
+    return raster;
+}
+
+void keep_above_zero(Raster<float>& raster) {
+    for (float& v : raster.values)
+        if (!(v > 0.0F)) v = kNaN;
+}
+
+/// Times on the scenario's clock, NaN where the fire never came.
+Raster<float> arrival_times_s(const scenario::ArrivalModelSource& source, const MapGrid& grid) {
+    auto arrival = read(source.arrival, "arrival_time", "s", grid);
+    const bool zero_is_burnt = source.model != "flammap";
+    bool any = false;
+    for (float& t : arrival.values) {
+        const bool reached = std::isfinite(t) && (t > 0.0F || (t == 0.0F && zero_is_burnt));
+        t = reached ? static_cast<float>(t + source.offset_s) : kNaN;
+        any = any || reached;
+    }
+    if (!any)
+        throw input_error(source.arrival.raster.files.front().string(),
+                          "no cell burns: all arrival times are negative or no data");
+    return arrival;
+}
+
+/// A unit that is wrong by a factor of 60 shows in the rate at which the front must have run.
+void check_rate(const Raster<float>& rate_m_s, const scenario::ArrivalModelSource& source,
+                std::vector<std::string>& warnings) {
+    constexpr double kSlowest_m_s = 0.001, kFastest_m_s = 10.0;
+    std::vector<float> known;
+    std::copy_if(rate_m_s.values.begin(), rate_m_s.values.end(), std::back_inserter(known),
+                 [](float v) { return v > 0.0F; });
+    if (known.empty()) return;
+    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+    std::nth_element(known.begin(), middle, known.end());
+    if (*middle < kSlowest_m_s || *middle > kFastest_m_s)
+        warnings.push_back(fmt::format(
+            "arrival times of '{}' in {} mean a front of {:.2g} m/s (median); fires run at {} to {} m/s: check "
+            "inputs.arrival_model.arrival.unit",
+            source.arrival.raster.files.front().string(), source.arrival.unit, *middle, kSlowest_m_s, kFastest_m_s));
+}
+
+}  // namespace
+
+ModelledFire read_arrival_model(const scenario::Scenario& scenario, const MapGrid& grid) {
+    const auto& source = *scenario.inputs.arrival_model;
+    ModelledFire fire;
+    fire.ground.arrival_time_s = arrival_times_s(source, grid);
+    fire.frames_s = source.frames_s;
+    fire.mean_over_s = source.mean_over_s;
+    auto implied = fire::spread_rate_m_s(fire.ground.arrival_time_s, std::numeric_limits<double>::max());
+    check_rate(implied, source, fire.warnings);
+    std::optional<Raster<float>> rate;
+    if (source.spread_rate) {
+        rate = read(*source.spread_rate, "spread_rate", "m s-1", grid);
+        keep_above_zero(*rate);
+        for (std::size_t i = 0; i < implied.values.size(); ++i)
+            if (!std::isnan(rate->values[i])) implied.values[i] = rate->values[i];
+    }
+    for (float& v : implied.values) v = std::min(v, static_cast<float>(scenario.fire.flames.maximum_spread_rate_m_s));
+    fire.spread_rate_m_s = std::move(implied);
+    if (source.fireline_intensity) {
+        fire.fireline_intensity_W_m = read(*source.fireline_intensity, "fireline_intensity", "W m-1", grid);
+        keep_above_zero(*fire.fireline_intensity_W_m);
+    }
+    if (source.flame_length) {
+        fire.flame_length_m = read(*source.flame_length, "flame_length", "m", grid);
+        keep_above_zero(*fire.flame_length_m);
+    }
+    const auto models = fuel_models(source.fuel);
+    add_fuel(fire, fuel_of_cells(source.fuel, models, grid), models, source.coarse_burn_time_s,
+             [&](std::size_t, double) { return source.fuel_moisture_pct / 100.0; });
+    if (rate && fire.fireline_intensity_W_m)
+        for (std::size_t i = 0; i < grid.size(); ++i) {
+            const float heat_J_m2 = fire.fireline_intensity_W_m->values[i] / rate->values[i];
+            if (std::isfinite(heat_J_m2) && fire.fuel_load_kg_m2.values[i] > 0.0F)
+                fire.ground.heat_J_m2.values[i] = heat_J_m2;
+        }
+    return fire;
+}
+
+std::vector<std::filesystem::path> arrival_model_files(const scenario::ArrivalModelSource& source) {
+    auto files = files_of(source.fuel);
+    files.push_back(source.arrival.raster.files.front());
+    for (const auto* raster : {&source.fireline_intensity, &source.flame_length, &source.spread_rate})
+        if (*raster) files.push_back((*raster)->raster.files.front());
+    return files;
+}
+
+}  // namespace pyroscene::inputs
