@@ -46,18 +46,32 @@ void read_values(const GDALMDArray& array, NamedArray& out, const std::string& s
 
 }  // namespace
 
-NamedArray read_netcdf_variable(const std::filesystem::path& path, const std::string& variable) {
+struct NetcdfFile::Impl {
+    std::filesystem::path path;
+    DatasetPtr dataset;
+};
+
+NetcdfFile::NetcdfFile(const std::filesystem::path& path) {
     initialise_gdal();
     const GdalErrors errors;
-    const std::string subject = fmt::format("{}, variable '{}'", path.string(), variable);
-    const DatasetPtr dataset(
-        GDALDataset::Open(path.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+    DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
     if (!dataset) {
         std::error_code ignored;
         if (!std::filesystem::exists(path, ignored)) throw input_error(path.string(), "no such file");
         throw input_error(path.string(), "is not a netCDF file that can be read: " + errors.message());
     }
-    const auto root = dataset->GetRootGroup();
+    impl_ = std::make_unique<Impl>(Impl{path, std::move(dataset)});
+}
+NetcdfFile::NetcdfFile(NetcdfFile&&) noexcept = default;
+NetcdfFile& NetcdfFile::operator=(NetcdfFile&&) noexcept = default;
+NetcdfFile::~NetcdfFile() = default;
+
+const std::filesystem::path& NetcdfFile::path() const noexcept { return impl_->path; }
+
+NamedArray NetcdfFile::read(const std::string& variable) const {
+    const GdalErrors errors;
+    const std::string subject = fmt::format("{}, variable '{}'", impl_->path.string(), variable);
+    const auto root = impl_->dataset->GetRootGroup();
     const auto array = root ? root->OpenMDArray(variable) : nullptr;
     if (!array)
         throw input_error(subject, "not in the file; it has " + (root ? names_of(*root) : std::string("no variables")));
@@ -73,6 +87,10 @@ NamedArray read_netcdf_variable(const std::filesystem::path& path, const std::st
     out.values.resize(size);
     if (size > 0) read_values(*array, out, subject, errors);
     return out;
+}
+
+NamedArray read_netcdf_variable(const std::filesystem::path& path, const std::string& variable) {
+    return NetcdfFile(path).read(variable);
 }
 
 }  // namespace pyroscene::gis

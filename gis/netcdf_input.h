@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,25 @@ struct NamedArray {
     std::vector<double> values;  ///< row-major
 };
 
-/// Reads one variable (GDAL multidimensional API). Throws an input error naming file and variable.
+/// A netCDF file open for reading (GDAL multidimensional API).
+class NetcdfFile {
+public:
+    /// Throws an input error naming the file: not there, not netCDF.
+    explicit NetcdfFile(const std::filesystem::path& path);
+    NetcdfFile(NetcdfFile&&) noexcept;
+    NetcdfFile& operator=(NetcdfFile&&) noexcept;
+    ~NetcdfFile();
+
+    [[nodiscard]] const std::filesystem::path& path() const noexcept;
+    /// Throws an input error naming file and variable.
+    [[nodiscard]] NamedArray read(const std::string& variable) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// One variable of a file. Throws as NetcdfFile.
 NamedArray read_netcdf_variable(const std::filesystem::path& path, const std::string& variable);
 
 }  // namespace pyroscene::gis

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,6 +50,16 @@ std::string take_field(std::string_view& rest, std::string_view subject) {
     return field;
 }
 
+std::optional<double> number_in(std::string_view text) {
+    const std::string_view s = trim(text);
+    if (s == "nan" || s == "NaN") return std::nan("");
+    double value = 0.0;
+    const char* begin = s.data() + (s.starts_with('+') && !s.starts_with("+-") ? 1 : 0);
+    const auto [end, status] = std::from_chars(begin, s.data() + s.size(), value);
+    if (status != std::errc{} || end != s.data() + s.size() || s.empty()) return std::nullopt;
+    return value;
+}
+
 std::vector<std::string> split(std::string_view line, std::string_view subject) {
     std::vector<std::string> fields;
     for (;;) {
@@ -61,14 +72,9 @@ std::vector<std::string> split(std::string_view line, std::string_view subject) 
 }  // namespace
 
 double parse_number(std::string_view text, std::string_view subject) {
-    const std::string_view s = trim(text);
-    if (s == "nan" || s == "NaN") return std::nan("");
-    double value = 0.0;
-    const char* begin = s.data() + (s.starts_with('+') && !s.starts_with("+-") ? 1 : 0);
-    const auto [end, status] = std::from_chars(begin, s.data() + s.size(), value);
-    if (status != std::errc{} || end != s.data() + s.size() || s.empty())
-        throw input_error(subject, fmt::format("expected a number, found '{}'", s));
-    return value;
+    const auto value = number_in(text);
+    if (!value) throw input_error(subject, fmt::format("expected a number, found '{}'", trim(text)));
+    return *value;
 }
 
 std::size_t CsvTable::column(std::string_view name) const {
@@ -87,8 +93,11 @@ std::vector<double> CsvTable::numbers(std::string_view name) const {
     const std::size_t c = column(name);
     std::vector<double> out;
     out.reserve(rows.size());
-    for (std::size_t r = 0; r < rows.size(); ++r)
-        out.push_back(parse_number(rows[r][c], fmt::format("{}:{}: column '{}'", path, row_lines[r], name)));
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        const auto value = number_in(rows[r][c]);
+        out.push_back(value ? *value
+                            : parse_number(rows[r][c], fmt::format("{}:{}: column '{}'", path, row_lines[r], name)));
+    }
     return out;
 }
 

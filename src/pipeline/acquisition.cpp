@@ -49,13 +49,18 @@ std::array<double, 2> place(const Acquisition& acquisition, const inputs::SceneI
 
 radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, double ground_elevation_m) {
     const auto& source = scenario.atmosphere;
+    std::optional<gis::NetcdfFile> open;  // the variables of a file are asked for one after the other
+    const auto read = [&](const std::filesystem::path& path, const std::string& variable) {
+        if (!open || open->path() != path) open.emplace(path);
+        return open->read(variable).values;
+    };
     if (source.file)
-        return {{radiometry::make_atmosphere_table(
-            [&](const std::string& variable) { return gis::read_netcdf_variable(*source.file, variable).values; })}};
-    return radiometry::make_atmosphere_set(
-        source.model, source.visibility_km, ground_elevation_m, [](const std::string& file, const std::string& variable) {
-            return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
-        });
+        return {
+            {radiometry::make_atmosphere_table([&](const std::string& variable) { return read(*source.file, variable); })}};
+    return radiometry::make_atmosphere_set(source.model, source.visibility_km, ground_elevation_m,
+                                           [&](const std::string& file, const std::string& variable) {
+                                               return read(data_folder() / "atmosphere" / file, variable);
+                                           });
 }
 
 /// A table of the user's may be for few wavelengths only, and beyond them it says nothing.

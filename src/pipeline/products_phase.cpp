@@ -5,6 +5,8 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/ortho.h"
@@ -35,7 +37,7 @@ struct Product {
 };
 
 Product brightness_product(const ProductJob& job, const RenderedImage& r) {
-    Product p{"brightness_temperature", {}, {}};
+    Product p{"brightness_temperature", {}, std::vector<float>(job.bands.size() * r.n)};
     for (std::size_t k = 0; k < job.bands.size(); ++k) {
         const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
         // A thermometer is a table of a few hundred integrals: worth making for more pixels than that.
@@ -46,8 +48,10 @@ Product brightness_product(const ProductJob& job, const RenderedImage& r) {
             return table ? table->temperature_K(radiance) : radiometry::band_brightness_temperature(radiance, band.response);
         };
         p.bands.push_back({band.id + " brightness temperature", "K", band.centre_um, band.fwhm_um, {{"band_id", band.id}}});
-        for (std::size_t i = 0; i < r.n; ++i)
-            p.pixels.push_back(static_cast<float>(temperature_K(r.radiance.pixels[k * r.n + i])));
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(k * r.n, (k + 1) * r.n), [&](const auto& part) {
+            for (std::size_t i = part.begin(); i < part.end(); ++i)
+                p.pixels[i] = static_cast<float>(temperature_K(r.radiance.pixels[i]));
+        });
     }
     return p;
 }
@@ -174,7 +178,8 @@ void write_vectors(const ProductJob& job, const std::filesystem::path& output) {
                        state, fronts_path(path));
 }
 
-void write_picture(const ProductJob& job, const RenderedImage& r, const Product& brightness) {
+/// \param brightness  null: not made
+void write_picture(const ProductJob& job, const RenderedImage& r, const Product* brightness) {
     constexpr std::size_t kMostPanels = 4;
     std::vector<drawing::QuicklookPanel> panels;
     const std::size_t step = (job.bands.size() + kMostPanels - 1) / kMostPanels;
@@ -191,8 +196,8 @@ void write_picture(const ProductJob& job, const RenderedImage& r, const Product&
             warmest = k;
     const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[warmest])];
     constexpr double kThermal_um = 3.0;
-    if (job.scenario.products.brightness_temperature && band.centre_um > kThermal_um && panels.size() < kMostPanels) {
-        const auto first = brightness.pixels.begin() + static_cast<std::ptrdiff_t>(warmest * r.n);
+    if (brightness != nullptr && band.centre_um > kThermal_um && panels.size() < kMostPanels) {
+        const auto first = brightness->pixels.begin() + static_cast<std::ptrdiff_t>(warmest * r.n);
         panels.push_back({band.id + " brightness temperature",
                           "K",
                           r.samples,
@@ -262,6 +267,12 @@ StacImage stac_image(const ProductJob& job, const RenderedImage& r, const MapGri
     return image;
 }
 
+/// Whether a product shows more than where the pixels are.
+bool needs_pixels(const scenario::Products& wanted) {
+    return wanted.brightness_temperature || wanted.ortho || wanted.quicklook || wanted.native ||
+           (wanted.truth && (wanted.fractions || wanted.frp));
+}
+
 }  // namespace
 
 bool make_products(const ProductJob& job, const RunOptions& options, RunReport& report) {
@@ -276,11 +287,13 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
     std::optional<PhaseTimer> timer;
     stage(0.0);
     timer.emplace(report, "products/read");
-    const auto r = read_rendered(job);
+    auto r = read_ground(job);
+    const bool spectrum = r.n == 1 && job.bands.size() > 1;
+    if (spectrum || needs_pixels(wanted)) read_pixels(job, r);
     timer.emplace(report, "products/sensor_geometry");
     std::vector<Product> made;
-    made.push_back(brightness_product(job, r));
-    if (!wanted.brightness_temperature) made.back().stem.clear();
+    if (spectrum || wanted.brightness_temperature) made.push_back(brightness_product(job, r));
+    if (!made.empty() && !wanted.brightness_temperature) made.back().stem.clear();
     if (wanted.fractions && r.truth) made.push_back(fractions_product(r));
     if (wanted.frp && r.truth) made.push_back(frp_product(r));
     for (const auto& product : made)
@@ -312,10 +325,10 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
     }
     stage(0.9);
     timer.emplace(report, "products/quicklook");
-    if (r.n == 1 && job.bands.size() > 1)
+    if (spectrum)
         write_spectrum(job, r, made.front());
     else if (wanted.quicklook)
-        write_picture(job, r, made.front());
+        write_picture(job, r, wanted.brightness_temperature ? &made.front() : nullptr);
     write_stac_item(job, stac_image(job, r, grid));
     report.count("products/" + job.acquisition.id, 1);
     stage(1.0);

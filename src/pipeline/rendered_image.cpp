@@ -3,8 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 namespace pyroscene::pipeline {
 namespace {
+
+/// Longitudes and latitudes become map coordinates in place; PROJ wants a transformation for each thread.
+void to_map(const std::string& crs_wkt, std::span<double> x, std::span<double> y) {
+    tbb::enumerable_thread_specific<gis::MapProjection> projections([&] { return gis::MapProjection(crs_wkt); });
+    constexpr std::size_t kGrain = 1U << 16U;  // making a transformation costs as much as using it a few thousand times
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x.size(), kGrain), [&](const auto& part) {
+        projections.local().to_map(x.subspan(part.begin(), part.size()), y.subspan(part.begin(), part.size()));
+    });
+}
 
 /// Ground area of each pixel from its neighbours (central differences), and the median pixel size.
 void measure_pixels(RenderedImage& r) {
@@ -43,7 +56,7 @@ RenderedImage read_ground(const ProductJob& job) {
     r.n = static_cast<std::size_t>(r.samples) * static_cast<std::size_t>(r.lines);
     r.x_m.assign(r.where(kLongitude).begin(), r.where(kLongitude).end());
     r.y_m.assign(r.where(kLatitude).begin(), r.where(kLatitude).end());
-    gis::MapProjection(job.inputs.grid.crs_wkt).to_map(r.x_m, r.y_m);
+    to_map(job.inputs.grid.crs_wkt, r.x_m, r.y_m);
     const auto number = [&](const char* key) {
         const auto found = r.geolocation.metadata.find(key);
         return found == r.geolocation.metadata.end() ? 0 : std::stoi(found->second);
@@ -53,10 +66,14 @@ RenderedImage read_ground(const ProductJob& job) {
     return r;
 }
 
-RenderedImage read_rendered(const ProductJob& job) {
-    RenderedImage r = read_ground(job);
+void read_pixels(const ProductJob& job, RenderedImage& r) {
     r.radiance = gis::read_image(job.files.radiance());
     if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth(), kExitance + 1);
+}
+
+RenderedImage read_rendered(const ProductJob& job) {
+    RenderedImage r = read_ground(job);
+    read_pixels(job, r);
     return r;
 }
 

@@ -52,8 +52,9 @@ struct RenderedImage {
 /// Reads radiance, geolocation and, where the scenario has it, truth of a job. Throws an input error naming a missing file.
 RenderedImage read_rendered(const ProductJob& job);
 
-/// The same without radiance and truth.
+/// The same without radiance and truth, and these two for an image that has only its ground.
 RenderedImage read_ground(const ProductJob& job);
+void read_pixels(const ProductJob& job, RenderedImage& r);
 
 /// A round ortho cell near the pixel size: two significant digits.
 double ortho_cell_m(double gsd_m);
