@@ -41,6 +41,22 @@ CountingRange counting_range(const Noise& noise, double factor, std::optional<do
     return range;
 }
 
+/// The range for all signals, and that for the ones up to its full scale (without one: none).
+struct CountingRanges {
+    CountingRange wide, sensitive;
+
+    [[nodiscard]] const CountingRange& of(double signal) const { return signal <= sensitive.full_scale ? sensitive : wide; }
+};
+
+CountingRanges counting_ranges(const Band& band) {
+    CountingRanges ranges;
+    ranges.wide = counting_range(band.noise, band.noise_factor, band.saturation_radiance_W_m2_sr_um, band);
+    ranges.sensitive.full_scale = -std::numeric_limits<double>::infinity();
+    if (const auto& range = band.sensitive_range)
+        ranges.sensitive = counting_range(range->noise, 1.0, range->maximum_W_m2_sr_um, band);
+    return ranges;
+}
+
 /// Gaussian weights at 0, 1, 2, ... pixels, out to three standard deviations.
 std::vector<double> gaussian_weights(double fwhm) {
     const double sigma = fwhm / (2.0 * std::sqrt(2.0 * std::log(2.0)));
@@ -110,24 +126,32 @@ double noise_radiance(const Band& band, double radiance_W_m2_sr_um) {
                      : band.noise_factor * radiance_noise(band.noise, band.response).sigma(radiance_W_m2_sr_um);
 }
 
+std::vector<float> noise_and_rounding(const Band& band, std::span<const float> radiance_W_m2_sr_um) {
+    const auto ranges = counting_ranges(band);
+    std::vector<float> out;
+    out.reserve(radiance_W_m2_sr_um.size());
+    for (const float L : radiance_W_m2_sr_um) {
+        const auto& range = ranges.of(static_cast<double>(L));
+        const double sigma = range.noise.sigma(static_cast<double>(L));
+        out.push_back(static_cast<float>(std::sqrt(sigma * sigma + range.step * range.step / 12.0)));
+    }
+    return out;
+}
+
 std::int64_t apply_detector(const Band& band, const RandomKey& key, std::span<float> radiance_W_m2_sr_um,
                             std::span<std::uint8_t> saturated) {
     if (radiance_W_m2_sr_um.size() != saturated.size())
         throw runtime_error(fmt::format("band {}", band.id),
                             fmt::format("{} pixels but {} saturation flags", radiance_W_m2_sr_um.size(), saturated.size()));
-    const CountingRange wide = counting_range(band.noise, band.noise_factor, band.saturation_radiance_W_m2_sr_um, band);
-    CountingRange sensitive;
-    sensitive.full_scale = -std::numeric_limits<double>::infinity();
-    if (const auto& range = band.sensitive_range)
-        sensitive = counting_range(range->noise, 1.0, range->maximum_W_m2_sr_um, band);
+    const auto ranges = counting_ranges(band);
+    const CountingRange& wide = ranges.wide;
     const double folds_from = wide.full_scale * band.fold_over.value_or(std::numeric_limits<double>::infinity());
     std::int64_t clipped = 0;
     for (std::size_t i = 0; i < radiance_W_m2_sr_um.size(); ++i) {
         saturated[i] = kUnsaturated;
         double signal = radiance_W_m2_sr_um[i];
         if (std::isnan(signal)) continue;
-        const bool within = signal <= sensitive.full_scale;
-        if (const double sigma = (within ? sensitive : wide).noise.sigma(signal); sigma > 0.0)
+        if (const double sigma = ranges.of(signal).noise.sigma(signal); sigma > 0.0)
             signal += sigma * standard_normal(key, i);
         if (signal > folds_from) {
             signal = std::fmod(signal - folds_from, wide.full_scale);
@@ -137,7 +161,7 @@ std::int64_t apply_detector(const Band& band, const RandomKey& key, std::span<fl
             saturated[i] = kClipped;
         }
         clipped += saturated[i] != kUnsaturated ? 1 : 0;
-        radiance_W_m2_sr_um[i] = static_cast<float>((signal <= sensitive.full_scale ? sensitive : wide).counted(signal));
+        radiance_W_m2_sr_um[i] = static_cast<float>(ranges.of(signal).counted(signal));
     }
     return clipped;
 }

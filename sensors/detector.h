@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "base/random.h"
 #include "sensors/sensor.h"
@@ -31,6 +32,9 @@ double sunlit_radiance(double albedo, const Spectrum& response);
 
 /// Standard deviation of the radiance noise for a given signal [W m-2 sr-1 um-1]; 0 when the file states none.
 double noise_radiance(const Band& band, double radiance_W_m2_sr_um);
+
+/// The same of many signals, with the rounding of the counts (step / sqrt 12). NaN stays NaN.
+std::vector<float> noise_and_rounding(const Band& band, std::span<const float> radiance_W_m2_sr_um);
 
 /// Flags of apply_detector(): the signal was clipped, or ran over its counter and reads far too low.
 enum Saturation : std::uint8_t { kUnsaturated = 0, kClipped = 1, kFoldedOver = 2 };

@@ -7,19 +7,14 @@
 namespace pyroscene::analysis {
 namespace {
 
-constexpr float kDay_deg = 85.0F;
 constexpr WindowRule kWindow{3, 21, 0.25, 8};
 constexpr int kSceneHalfSamples = 150, kSceneHalfLines = 15;  // C6: 301 columns x 30 lines
 
-class Mod14 {
+class Mod14 : ContextualScene {
 public:
-    explicit Mod14(const ThermalScene& scene) : s_(scene), n_(scene.mir_K.size()) {}
+    using ContextualScene::ContextualScene;
 
     Detection run() {
-        out_.fire.assign(n_, FireClass::Clear);
-        out_.confidence_percent.assign(n_, std::nanf(""));
-        out_.background_mir_K.assign(n_, std::nanf(""));
-        roles_.assign(n_, Role::Valid);
         for (std::size_t i = 0; i < n_; ++i) mask(i);
         find_thresholds();
         std::vector<FireClass> found = out_.fire;
@@ -30,19 +25,7 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t at(int sample, int line) const {
-        return static_cast<std::size_t>(line) * static_cast<std::size_t>(s_.samples) + static_cast<std::size_t>(sample);
-    }
-    [[nodiscard]] bool day(std::size_t i) const { return !s_.sun_zenith_deg.empty() && s_.sun_zenith_deg[i] < kDay_deg; }
-    [[nodiscard]] double difference(std::size_t i) const {
-        return static_cast<double>(s_.mir_K[i]) - static_cast<double>(s_.tir_K[i]);
-    }
-    [[nodiscard]] bool certain(std::size_t i) const { return s_.mir_K[i] > (day(i) ? 360.0F : 320.0F); }  // test 1
-    /// A reflectance, or a value that passes no test for brightness.
-    [[nodiscard]] static double reflectance(std::span<const float> plane, std::size_t i) {
-        return plane.empty() || !std::isfinite(plane[i]) ? 0.0 : static_cast<double>(plane[i]);
-    }
-
+    [[nodiscard]] bool certain(std::size_t i) const { return mir(i) > (day(i) ? 360.0 : 320.0); }  // test 1
     [[nodiscard]] bool cloud(std::size_t i) const {
         const double bright = reflectance(s_.red, i) + reflectance(s_.nir, i);
         const double T12_K = static_cast<double>(s_.cloud_K.empty() ? s_.tir_K[i] : s_.cloud_K[i]);
@@ -58,8 +41,7 @@ private:
         } else if (cloud(i)) {
             out_.fire[i] = FireClass::Cloud;
         }
-        const bool looks_burning =
-            day(i) ? s_.mir_K[i] > 325.0F && difference(i) > 20.0 : s_.mir_K[i] > 310.0F && difference(i) > 10.0;
+        const bool looks_burning = day(i) ? mir(i) > 325.0 && difference(i) > 20.0 : mir(i) > 310.0 && difference(i) > 10.0;
         if (out_.fire[i] != FireClass::Clear)
             roles_[i] = Role::Masked;
         else if (looks_burning)
@@ -81,17 +63,17 @@ private:
 
     [[nodiscard]] bool candidate(int sample, int line) const {
         const std::size_t i = at(sample, line);
-        if (!day(i)) return s_.mir_K[i] > 305.0F && difference(i) > 10.0;
+        if (!day(i)) return mir(i) > 305.0 && difference(i) > 10.0;
         const double mir_K = means_[0].around(sample, line, kSceneHalfSamples, kSceneHalfLines),
                      mean_K = means_[1].around(sample, line, kSceneHalfSamples, kSceneHalfLines);
         const double least_mir_K = std::isfinite(mir_K) ? std::clamp(mir_K + 5.0, 300.0, 330.0) : 310.0;
         const double least_K = std::isfinite(mean_K) ? std::clamp(mean_K + 5.0, 10.0, 35.0) : 10.0;
-        return static_cast<double>(s_.mir_K[i]) > least_mir_K && difference(i) > least_K && reflectance(s_.nir, i) < 0.35;
+        return mir(i) > least_mir_K && difference(i) > least_K && reflectance(s_.nir, i) < 0.35;
     }
 
     /// Tests 2 to 6.
     [[nodiscard]] bool stands_out(std::size_t i, const Context& c) const {
-        const double mir_K = static_cast<double>(s_.mir_K[i]), tir_K = static_cast<double>(s_.tir_K[i]);
+        const double mir_K = mir(i), tir_K = tir(i);
         const bool by_contrast = difference(i) > c.difference.mean + 3.5 * c.difference.spread &&
                                  difference(i) > c.difference.mean + 6.0 && mir_K > c.mir.mean + 3.0 * c.mir.spread;
         const bool warm_enough = tir_K > c.tir.mean + c.tir.spread - 4.0 || c.fires.spread > 5.0;
@@ -108,12 +90,10 @@ private:
     }
     [[nodiscard]] bool desert_edge(std::size_t i, const Context& c) const {
         return c.background_fires > 0.1 * c.valid && c.background_fires >= 4 && reflectance(s_.nir, i) > 0.15 &&
-               c.fires.mean < 345.0 && c.fires.spread < 3.0 &&
-               static_cast<double>(s_.mir_K[i]) < c.fires.mean + 6.0 * c.fires.spread;
+               c.fires.mean < 345.0 && c.fires.spread < 3.0 && mir(i) < c.fires.mean + 6.0 * c.fires.spread;
     }
     [[nodiscard]] bool clearing(std::size_t i, const Context& c) const {  // C6: clearings in tropical forest
-        return static_cast<double>(s_.tir_K[i]) > c.tir.mean + 3.7 * c.tir.spread && reflectance(s_.nir, i) > 0.28 &&
-               s_.mir_K[i] < 325.0F;
+        return tir(i) > c.tir.mean + 3.7 * c.tir.spread && reflectance(s_.nir, i) > 0.28 && mir(i) < 325.0;
     }
 
     void judge(int sample, int line, std::vector<FireClass>& found) {
@@ -141,7 +121,7 @@ private:
 
     /// Detection confidence: geometric mean of ramps (eq 17 to 22 of 2003).
     [[nodiscard]] double rate(std::size_t i, const Context& c, int clouds, int waters) const {
-        const double mir_K = static_cast<double>(s_.mir_K[i]);
+        const double mir_K = mir(i);
         const double heat = day(i) ? ramp(mir_K, 310.0, 340.0) : ramp(mir_K, 305.0, 320.0);
         if (!c.found) return heat;
         const double contrast = ramp(mir_K - c.mir.mean, 2.5 * c.mir.spread, 6.0 * c.mir.spread),
@@ -152,10 +132,6 @@ private:
             heat * contrast * difference_contrast * (1.0 - ramp(clouds, 0.0, 6.0)) * (1.0 - ramp(waters, 0.0, 6.0)), 0.2);
     }
 
-    const ThermalScene& s_;
-    std::size_t n_;
-    Detection out_;
-    std::vector<Role> roles_;
     std::vector<LocalMean> means_;  ///< of the MIR, of the difference
 };
 

@@ -7,19 +7,14 @@
 namespace pyroscene::analysis {
 namespace {
 
-constexpr float kDay_deg = 85.0F;
 constexpr WindowRule kWindow{11, 31, 0.25, 10};
 constexpr int kSceneHalf = 250, kSceneStep = 50;  ///< median of 501 x 501 pixels, for blocks of 50 x 50
 
-class Viirs375 {
+class Viirs375 : ContextualScene {
 public:
-    explicit Viirs375(const ThermalScene& scene) : s_(scene), n_(scene.mir_K.size()) {}
+    using ContextualScene::ContextualScene;
 
     Detection run() {
-        out_.fire.assign(n_, FireClass::Clear);
-        out_.confidence_percent.assign(n_, std::nanf(""));
-        out_.background_mir_K.assign(n_, std::nanf(""));
-        roles_.assign(n_, Role::Valid);
         for (std::size_t i = 0; i < n_; ++i) mask(i);
         std::vector<FireClass> found = out_.fire;
         for (int line = 0; line < s_.lines; line += kSceneStep)
@@ -29,17 +24,7 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t at(int sample, int line) const {
-        return static_cast<std::size_t>(line) * static_cast<std::size_t>(s_.samples) + static_cast<std::size_t>(sample);
-    }
-    [[nodiscard]] bool day(std::size_t i) const { return !s_.sun_zenith_deg.empty() && s_.sun_zenith_deg[i] < kDay_deg; }
-    [[nodiscard]] double mir(std::size_t i) const { return static_cast<double>(s_.mir_K[i]); }
-    [[nodiscard]] double tir(std::size_t i) const { return static_cast<double>(s_.tir_K[i]); }
-    [[nodiscard]] double difference(std::size_t i) const { return mir(i) - tir(i); }
     [[nodiscard]] bool saturated(std::size_t i) const { return mir(i) >= s_.mir_saturation_K; }
-    [[nodiscard]] static double reflectance(std::span<const float> plane, std::size_t i) {
-        return plane.empty() || !std::isfinite(plane[i]) ? 0.0 : static_cast<double>(plane[i]);
-    }
     [[nodiscard]] double brightness(std::size_t i) const { return reflectance(s_.red, i) + reflectance(s_.nir, i); }
 
     [[nodiscard]] bool cloud(std::size_t i) const {
@@ -132,11 +117,6 @@ private:
         found[i] = low ? FireClass::Low : saturated(i) ? FireClass::High : FireClass::Nominal;
         out_.confidence_percent[i] = low ? 15.0F : saturated(i) ? 100.0F : 55.0F;  // middles of the classes' ranges
     }
-
-    const ThermalScene& s_;
-    std::size_t n_;
-    Detection out_;
-    std::vector<Role> roles_;
 };
 
 }  // namespace

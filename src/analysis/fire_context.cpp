@@ -26,6 +26,17 @@ bool looks_like_water(const ThermalScene& s, std::size_t i) {
 
 }  // namespace
 
+ContextualScene::ContextualScene(const ThermalScene& scene)
+    : s_(scene), n_(scene.mir_K.size()), roles_(scene.mir_K.size(), Role::Valid) {
+    out_.fire.assign(n_, FireClass::Clear);
+    out_.confidence_percent.assign(n_, std::nanf(""));
+    out_.background_mir_K.assign(n_, std::nanf(""));
+}
+
+double ContextualScene::reflectance(std::span<const float> plane, std::size_t i) noexcept {
+    return plane.empty() || !std::isfinite(plane[i]) ? 0.0 : static_cast<double>(plane[i]);
+}
+
 Context context_of(const ThermalScene& s, std::span<const Role> roles, const WindowRule& rule, int sample, int line) {
     std::vector<std::size_t> valid, fires;
     for (int edge = rule.smallest; edge <= rule.largest; edge += 2) {

@@ -7,6 +7,31 @@ namespace pyroscene::analysis {
 /// Which pixels may serve as surroundings, and which cannot because they look like fires themselves.
 enum class Role : unsigned char { Valid, BackgroundFire, Masked };
 
+/// Pixels of a scene, and what a detector says of them: what the contextual detectors have in common.
+class ContextualScene {
+public:
+    explicit ContextualScene(const ThermalScene& scene);
+
+protected:
+    [[nodiscard]] std::size_t at(int sample, int line) const noexcept {
+        return static_cast<std::size_t>(line) * static_cast<std::size_t>(s_.samples) + static_cast<std::size_t>(sample);
+    }
+    /// The sun is higher than 5 degrees.
+    [[nodiscard]] bool day(std::size_t i) const noexcept {
+        return !s_.sun_zenith_deg.empty() && s_.sun_zenith_deg[i] < 85.0F;
+    }
+    [[nodiscard]] double mir(std::size_t i) const noexcept { return static_cast<double>(s_.mir_K[i]); }
+    [[nodiscard]] double tir(std::size_t i) const noexcept { return static_cast<double>(s_.tir_K[i]); }
+    [[nodiscard]] double difference(std::size_t i) const noexcept { return mir(i) - tir(i); }
+    /// A reflectance, or 0, which passes no test for brightness.
+    [[nodiscard]] static double reflectance(std::span<const float> plane, std::size_t i) noexcept;
+
+    const ThermalScene& s_;
+    std::size_t n_;
+    Detection out_;            ///< all clear to begin with
+    std::vector<Role> roles_;  ///< all valid to begin with
+};
+
 /// Mean and mean absolute deviation.
 struct MeanAndSpread {
     double mean = 0.0, spread = 0.0;

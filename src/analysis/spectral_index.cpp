@@ -133,6 +133,27 @@ std::vector<float> spectral_index(const SpectralIndex& index, std::span<const st
     return out;
 }
 
+std::vector<float> spectral_index_noise(const SpectralIndex& index, std::span<const std::span<const float>> planes,
+                                        std::span<const std::span<const float>> noise, std::span<const double> centre_um) {
+    const auto bands = static_cast<std::size_t>(index.bands);
+    std::vector<float> out(planes[0].size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        std::array<double, 3> v{};
+        for (std::size_t b = 0; b < bands; ++b) v[b] = static_cast<double>(planes[b][i]);
+        double variance = 0.0;
+        for (std::size_t b = 0; b < bands; ++b) {
+            auto above = v, below = v;
+            const double half = 0.5 * static_cast<double>(noise[b][i]);
+            above[b] += half;
+            below[b] -= half;
+            const double change = value_of(index, above, centre_um) - value_of(index, below, centre_um);
+            variance += change * change;
+        }
+        out[i] = static_cast<float>(std::sqrt(variance));
+    }
+    return out;
+}
+
 RobustStatistics robust_statistics(std::span<const float> values) {
     std::vector<float> valid;
     std::copy_if(values.begin(), values.end(), std::back_inserter(valid), [](float v) { return std::isfinite(v); });
@@ -143,23 +164,30 @@ RobustStatistics robust_statistics(std::span<const float> values) {
     return {median, kNormal * median_of(valid)};
 }
 
-IndexDetection detect_by_index(std::span<const float> values, std::span<const unsigned char> dark,
-                               const SpectralIndex& index, const IndexRule& rule) {
+IndexDetection detect_by_index(const IndexScene& scene, const SpectralIndex& index, const IndexRule& rule) {
+    const auto n = scene.values.size();
     IndexDetection out;
-    out.scene = rule.night ? RobustStatistics{index.least_value, 0.0} : robust_statistics(values);
+    out.scene = rule.night ? RobustStatistics{index.least_value, 0.0} : robust_statistics(scene.values);
     const double by_scene = out.scene.median + std::max(rule.deviations * out.scene.deviation, index.least_excess);
     out.threshold = rule.threshold.value_or(std::max(by_scene, index.least_value));
-    out.result.fire.assign(values.size(), FireClass::Clear);
-    out.result.confidence_percent.assign(values.size(), kNaN);
-    out.result.background_mir_K.assign(values.size(), kNaN);
+    out.result.fire.assign(n, FireClass::Clear);
+    out.result.confidence_percent.assign(n, kNaN);
+    out.result.background_mir_K.assign(n, kNaN);
     const double needed = out.threshold - out.scene.median;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const double value = static_cast<double>(values[i]);
+    const bool by_noise = rule.night && !rule.threshold && !scene.noise.empty();
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!scene.burnt_out.empty() && scene.burnt_out[i] != 0) {
+            out.result.fire[i] = FireClass::High;
+            out.result.confidence_percent[i] = 100.0F;
+            continue;
+        }
+        const double value = static_cast<double>(scene.values[i]);
         if (!std::isfinite(value)) {
-            if (dark.empty() || dark[i] == 0) out.result.fire[i] = FireClass::NotProcessed;
+            if (scene.dark.empty() || scene.dark[i] == 0) out.result.fire[i] = FireClass::NotProcessed;
             continue;
         }
         if (!(value > out.threshold)) continue;
+        if (by_noise && !(value - out.scene.median > rule.deviations * static_cast<double>(scene.noise[i]))) continue;
         const double times = needed > 0.0 ? (value - out.scene.median) / needed : 2.0;
         out.result.fire[i] = times < 2.0 ? FireClass::Nominal : FireClass::High;
         out.result.confidence_percent[i] = static_cast<float>(50.0 * std::clamp(times, 1.0, 2.0));

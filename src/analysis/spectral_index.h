@@ -44,6 +44,11 @@ const SpectralIndex* find_spectral_index(std::string_view name) noexcept;
 std::vector<float> spectral_index(const SpectralIndex& index, std::span<const std::span<const float>> planes,
                                   std::span<const double> centre_um);
 
+/// Standard deviation of the index from independent noise of its bands, to first order. \param noise  standard deviations, shaped like
+/// the planes
+std::vector<float> spectral_index_noise(const SpectralIndex& index, std::span<const std::span<const float>> planes,
+                                        std::span<const std::span<const float>> noise, std::span<const double> centre_um);
+
 /// Middle and scatter of a scene that few pixels disturb: median and 1.4826 x median distance from it (the standard deviation of
 /// normal values). NaN is left out.
 struct RobustStatistics {
@@ -56,21 +61,28 @@ struct IndexRule {
     std::optional<double>
         threshold{};  ///< default by day: median of the scene + max(`deviations` x its scatter, least excess of the
                       ///< index), but not below its least value; by night, when all that is lit is lit by fire:
-                      ///< least value + least excess
+                      ///< least value + least excess, and above the least value by `deviations` x the noise of the pixel
     double deviations = 6.0;
     bool night = false;
 };
 
+/// An index of a scene, pixel by pixel. Empty where nothing is known but the values.
+struct IndexScene {
+    std::span<const float> values{};
+    std::span<const float> noise{};              ///< standard deviation of a value
+    std::span<const unsigned char> dark{};       ///< 1 = too dark for an index
+    std::span<const unsigned char> burnt_out{};  ///< 1 = all bands at their limit, and no sunlit ground reaches that
+};
+
 /// Fire where the index lies above the threshold; nominal, and high above twice its distance from the median. Confidence 50 to 100 %.
-/// NaN: not processed, or without fire where `dark`.
-/// \param dark  1 = too dark for an index, per pixel; empty = none
+/// Where the detector is at its limit the index says nothing, and the pixel is fire with high confidence. NaN: not processed, or
+/// without fire where `dark`.
 struct IndexDetection {
     Detection result;
     RobustStatistics scene;
     double threshold = 0.0;
 };
-IndexDetection detect_by_index(std::span<const float> values, std::span<const unsigned char> dark,
-                               const SpectralIndex& index, const IndexRule& rule);
+IndexDetection detect_by_index(const IndexScene& scene, const SpectralIndex& index, const IndexRule& rule);
 
 /// Burn severity from dNBR = NBR before - NBR after: Key and Benson 2006 (FIREMON, table LA-1). Class 0 = no data.
 struct SeverityClass {

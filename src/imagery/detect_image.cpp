@@ -162,7 +162,7 @@ Detection by_index(ImageChannels& image, Scene& scene, DetectReport& report) {
     scene.tested = std::move(made.values);
     scene.tested_name = job.method;
     scene.tested_unit = index.kind == analysis::SpectralIndex::Kind::Difference ? "W m-2 sr-1 um-1" : "1";
-    auto found = analysis::detect_by_index(scene.tested, made.dark, index,
+    auto found = analysis::detect_by_index({scene.tested, made.noise, made.dark, made.burnt_out}, index,
                                            {job.threshold, job.deviations, by_night(image.info(), scene)});
     report.threshold = found.threshold;
     if (const int mir = image.find(kMirModis); mir > 0) read_mir(image, mir, scene);

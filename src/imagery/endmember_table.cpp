@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "imagery/band_response.h"
+#include "imagery/sensor_of_image.h"
 #include "imagery/spectral_library.h"
 #include "radiometry/response.h"
 
@@ -80,7 +80,7 @@ public:
             as_they_are_ = std::abs(library.x[b] - *image.bands[b].wavelength_um) <= tolerance_um(image.bands[b]);
         if (as_they_are_) return;
         if (const auto known = sensor_of_image(image, sensor))
-            for (const auto& band : image.bands) responses_.push_back(band_response(*known, band, image_path));
+            for (const auto& band : image.bands) responses_.push_back(band_of_image(*known, band, image_path).response);
     }
 
     [[nodiscard]] std::vector<double> at_bands(const std::vector<double>& y) const {

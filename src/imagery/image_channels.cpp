@@ -10,7 +10,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "imagery/band_response.h"
+#include "imagery/sensor_of_image.h"
 #include "radiometry/planck.h"
 
 namespace pyroscene::imagery {
@@ -104,15 +104,6 @@ int ImageChannels::twin(int number) const {
     return 0;
 }
 
-Spectrum ImageChannels::response_of(const gis::OutputBand& band) const {
-    const double centre_um = *band.wavelength_um;
-    if (!sensor_) {
-        const double half_um = 0.5 * band.fwhm_um.value_or(0.02 * centre_um);
-        return {Quantity::Response, {centre_um - half_um, centre_um + half_um}, {1.0, 1.0}};
-    }
-    return band_response(*sensor_, band, image_.path());
-}
-
 Channel ImageChannels::read(int number, Expect expect) {
     const auto& band = info().bands[static_cast<std::size_t>(number) - 1];
     const bool right = is_radiance(band.unit) || (expect == Expect::RadianceOrTemperature && band.unit == "K") ||
@@ -124,12 +115,20 @@ Channel ImageChannels::read(int number, Expect expect) {
                         expect == Expect::RadianceOrTemperature   ? " or a brightness temperature (K)"
                         : expect == Expect::RadianceOrReflectance ? " or a reflectance (1)"
                                                                   : ""));
-    return {number,
-            band.description.empty() ? fmt::format("band {}", number) : band.description,
-            band.unit,
-            *band.wavelength_um,
-            response_of(band),
-            image_.read_band(number)};
+    Channel channel;
+    channel.number = number;
+    channel.name = band.description.empty() ? fmt::format("band {}", number) : band.description;
+    channel.unit = band.unit;
+    channel.centre_um = *band.wavelength_um;
+    if (sensor_) {
+        channel.detector = band_of_image(*sensor_, band, image_.path());
+        channel.response = channel.detector->response;
+    } else {
+        const double half_um = 0.5 * band.fwhm_um.value_or(0.02 * channel.centre_um);
+        channel.response = {Quantity::Response, {channel.centre_um - half_um, channel.centre_um + half_um}, {1.0, 1.0}};
+    }
+    channel.values = image_.read_band(number);
+    return channel;
 }
 
 std::vector<float> reflectances(const Channel& channel, const std::vector<float>& sun_zenith_deg, double distance_AU) {

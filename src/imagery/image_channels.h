@@ -17,7 +17,8 @@ struct Channel {
     std::string name, unit;
     double centre_um = 0.0;
     Spectrum response;
-    std::vector<float> values;  ///< [line][sample]; NaN = no data
+    std::vector<float> values;                ///< [line][sample]; NaN = no data
+    std::optional<sensors::Band> detector{};  ///< absent: an image of an unknown sensor
 
     /// Band mean of a black body, W m-2 sr-1 um-1.
     [[nodiscard]] double black_body(double T_K) const;
@@ -51,8 +52,6 @@ public:
     [[nodiscard]] Channel read(int number, Expect expect = Expect::Radiance);
 
 private:
-    [[nodiscard]] Spectrum response_of(const gis::OutputBand& band) const;
-
     gis::ImageStream image_;
     std::optional<sensors::Sensor> sensor_;
 };

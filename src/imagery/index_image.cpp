@@ -7,10 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "drawing/qgis_style.h"
 #include "gis/pixel_positions.h"
 #include "gis/raster_input.h"
+#include "sensors/detector.h"
 
 namespace pyroscene::imagery {
 namespace {
@@ -137,12 +139,36 @@ IndexReport burn_severity(const IndexJob& job) {
     return report;
 }
 
+/// Radiance at which a band saturates when no surface lit by the sun reaches it, else nothing.
+std::optional<double> limit_above_sunlight(const Channel& channel) {
+    if (!channel.detector || !channel.detector->saturation_radiance_W_m2_sr_um) return {};
+    const double limit = *channel.detector->saturation_radiance_W_m2_sr_um;
+    return limit >= solar_irradiance_W_m2_um(channel.response) / kPi ? std::optional(limit) : std::nullopt;
+}
+
+/// What the detector tells of the index: its noise, and where all bands are at their limit.
+void add_detector(const std::vector<Channel>& channels, const analysis::SpectralIndex& index,
+                  std::span<const std::span<const float>> planes, std::span<const double> centres_um, IndexPlane& out) {
+    if (!std::all_of(channels.begin(), channels.end(), [](const auto& c) { return c.detector.has_value(); })) return;
+    std::vector<std::vector<float>> noise;
+    for (const auto& c : channels) noise.push_back(sensors::noise_and_rounding(*c.detector, c.values));
+    const std::vector<std::span<const float>> spans(noise.begin(), noise.end());
+    out.noise = analysis::spectral_index_noise(index, planes, spans, centres_um);
+    out.burnt_out.assign(out.values.size(), 1);
+    for (const auto& c : channels) {
+        constexpr double kRounding = 1e-6;  // of a limit kept as float
+        const double limit = limit_above_sunlight(c).value_or(std::numeric_limits<double>::infinity()) * (1.0 - kRounding);
+        for (std::size_t i = 0; i < out.burnt_out.size(); ++i)
+            if (!(static_cast<double>(c.values[i]) >= limit)) out.burnt_out[i] = 0;
+    }
+}
+
 }  // namespace
 
 IndexPlane index_plane(ImageChannels& image, const analysis::SpectralIndex& index, const SunOfImage* sun,
                        double least_radiance) {
     IndexPlane out;
-    std::vector<std::vector<float>> planes;
+    std::vector<Channel> channels;
     std::vector<double> centres_um;
     for (int b = 0; b < index.bands; ++b) {
         const auto& wanted = index.band[static_cast<std::size_t>(b)];
@@ -153,10 +179,14 @@ IndexPlane index_plane(ImageChannels& image, const analysis::SpectralIndex& inde
             number, sun != nullptr ? ImageChannels::Expect::RadianceOrReflectance : ImageChannels::Expect::Radiance);
         out.bands.push_back(fmt::format("{} ({:.4g} um)", band.name, band.centre_um));
         centres_um.push_back(band.centre_um);
-        planes.push_back(sun != nullptr ? reflectances(band, sun->zenith_deg, sun->distance_AU) : std::move(band.values));
+        if (sun != nullptr) band.values = reflectances(band, sun->zenith_deg, sun->distance_AU);
+        channels.push_back(std::move(band));
     }
-    const std::vector<std::span<const float>> spans(planes.begin(), planes.end());
-    out.values = analysis::spectral_index(index, spans, centres_um);
+    std::vector<std::span<const float>> planes;
+    for (const auto& c : channels) planes.emplace_back(c.values);
+    out.values = analysis::spectral_index(index, planes, centres_um);
+    if (sun != nullptr) return out;
+    add_detector(channels, index, planes, centres_um, out);
     out.dark.assign(out.values.size(), 0);
     for (std::size_t i = 0; i < out.values.size(); ++i) {
         const bool dark = std::all_of(planes.begin(), planes.end(),

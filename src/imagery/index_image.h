@@ -43,7 +43,10 @@ IndexReport index_image(const IndexJob& job);
 /// An index of an image, and which bands it was made of.
 struct IndexPlane {
     std::vector<float> values;
+    std::vector<float> noise;         ///< standard deviation of the values; empty = the sensor is not known
     std::vector<unsigned char> dark;  ///< 1: every band below `least_radiance`, so no value
+    std::vector<unsigned char>
+        burnt_out;  ///< 1: every band at its saturation, which a white surface facing the sun does not reach
     std::vector<std::string> bands;
 };
 /// \param sun  for indices of reflectances; null = the index takes radiances

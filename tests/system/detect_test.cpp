@@ -199,20 +199,20 @@ protected:
         EXPECT_EQ(result.exit_code, 0) << result.output;
         return nlohmann::json::parse(read_text_file(scratch / "f_scores.json"));
     }
-    /// All fires above 100 m2 and no others. \param folding  I4 of VIIRS falls back beyond its range: a pixel of more than 1000 m2
-    /// may read like ordinary ground, and the image has no quality flags to tell; two of three must be found all the same.
-    static void expect_found(const nlohmann::json& score, bool folding = false) {
+    /// All fires above 100 m2 and no others. \param unseen  of the fires above 1000 m2 so many may be missed
+    static void expect_found(const nlohmann::json& score, int unseen = 0) {
         EXPECT_EQ(score["false_alarms"], 0);
         EXPECT_GT(score["background_pixels"], 2000);
-        int large = 0;
+        int large = 0, missed = 0;
         for (const auto& bin : score["by_area_m2"]) {
             if (bin["from"].get<double>() < 100.0) continue;
-            if (folding && bin["from"].get<double>() >= 1000.0)
-                EXPECT_GE(3 * bin["found"].get<int>(), 2 * bin["true_pixels"].get<int>()) << bin.dump();
-            else
+            if (bin["from"].get<double>() < 1000.0) {
                 EXPECT_EQ(bin["found"], bin["true_pixels"]) << bin.dump();
+            }
+            missed += bin["true_pixels"].get<int>() - bin["found"].get<int>();
             large += bin["true_pixels"].get<int>();
         }
+        EXPECT_LE(missed, unseen);
         EXPECT_GT(large, 20);
         EXPECT_EQ(score["by_area_m2"][0]["found"], 0);  // below 10 m2
     }
@@ -228,19 +228,32 @@ TEST_F(PlantedFires, AreFoundByModis) {
 TEST_F(PlantedFires, AreFoundByViirsUnderSmoke) {
     const auto found =
         score("smoke.yaml", " --acquisition viirs", (scratch / "viirs/radiance.tif").string() + " --method viirs375");
-    expect_found(found, true);
+    // I4 runs over its counter in the brightest pixels, and some of these then read like ordinary ground: no detector sees them.
+    const auto truth = gis::read_image(scratch / "viirs/truth.tif"),
+               radiance = gis::read_image(scratch / "viirs/radiance.tif"), classes = gis::read_image(scratch / "f.tif");
+    const auto flame = plane(truth, "fraction_flame"), front = plane(truth, "fraction_front"),
+               saturated = plane(truth, "I04 saturated"), L4 = plane(radiance, "I04 radiance"), fire = plane(classes, 0);
+    int unseen = 0;
+    for (std::size_t i = 0; i < fire.size(); ++i)
+        if ((flame[i] + front[i]) * 375.0 * 375.0 >= 100.0 && fire[i] < 7.0) {
+            EXPECT_EQ(saturated[i], 2.0) << i;
+            EXPECT_LT(L4[i], 5.0) << i;
+            ++unseen;
+        }
+    EXPECT_LE(unseen, 3);
+    expect_found(found, unseen);
     EXPECT_GT(found["by_area_m2"][1]["found"], 10);  // from 29 m2 on
 }
 
 /// The minimal scenario as AVIRIS sees it, by day or by night, with much potassium in the flames.
-void render_aviris(const ScratchFolder& scratch, const std::string& start) {
+void render_aviris(const ScratchFolder& scratch, const std::string& start, double flame_K) {
     const auto inputs = (source_folder() / "scenarios/minimal/").string();
     write_text_file(
         scratch / "aviris.yaml",
         "pyroscene: 1\nname: aviris\ninputs:\n  terrain: {file: " + inputs + "dem.tif}\n  heat_flux: {file: " + inputs +
             "heat_flux.tif}\n  wind: {speed: 3, from_deg: 270}\nstart: " + start +
-            "\nflame: {composition: {potassium_ppm: 10}}\nrender: {noise: false}\nproducts: [radiance, "
-            "truth]\nacquisitions:\n"
+            "\nflame: {temperature_K: " + std::to_string(flame_K) +
+            ", composition: {potassium_ppm: 10}}\nproducts: [radiance, truth]\nacquisitions:\n"
             "  - {id: a, sensor: aviris-classic, time_s: 125, platform: {over: centre, altitude_agl_m: 4000}, bands: "
             "[\"43\", \"45\", \"46\", \"165\", \"169\", \"173\", \"175\", \"178\", \"180\", \"217\"]}\n");
     const auto run = pyroscene_cli("run -q " + (scratch / "aviris.yaml").string() + " -o " + (scratch / "out").string());
@@ -256,9 +269,8 @@ nlohmann::json score_index(const ScratchFolder& scratch, const std::string& meth
 
 TEST(DetectCommand, FindsRenderedFlamesBySpectralIndices) {
     const ScratchFolder day, night;
-    render_aviris(day, "2021-08-12T20:00:00Z");
-    // Not hfdi: flames clip both of its bands (35 and 20 W m-2 sr-1 um-1), and the ratio of the two limits is that of char.
-    for (const std::string method : {"co2", "aviris-co2"}) {
+    render_aviris(day, "2021-08-12T20:00:00Z", 1100.0);
+    for (const std::string method : {"hfdi", "co2", "aviris-co2"}) {
         const auto score = score_index(day, method);
         EXPECT_GT(score["true_pixels"], 50);
         EXPECT_LE(score["omission"], 0.1) << method;
@@ -268,10 +280,10 @@ TEST(DetectCommand, FindsRenderedFlamesBySpectralIndices) {
     }
     // Potassium at 1100 K is darker than sunlit ground at 768 nm (18 against 60 W m-2 sr-1 um-1): it shines by night only.
     EXPECT_EQ(score_index(day, "k-line")["detected"], 0);
-    render_aviris(night, "2021-08-12T08:00:00Z");
+    render_aviris(night, "2021-08-12T08:00:00Z", 1200.0);
     const auto line = score_index(night, "k-line");
-    EXPECT_GT(line["found"], 10);
-    EXPECT_EQ(line["false_alarms"], line["false_alarms_within_2_pixels_of_fire"]);
+    EXPECT_LE(line["omission"], 0.1);
+    EXPECT_EQ(line["false_alarms"], 0);
 }
 
 }  // namespace

@@ -192,16 +192,12 @@ bands:
     EXPECT_EQ(result.exit_code, 0) << result.output;
     const auto mir = plane(gis::read_image(folder / "frp.tif"), 0);
     const auto truth = gis::read_image(folder / "out/nadir/truth.tif");
-    std::size_t exitance = 0, front = 0;
-    for (std::size_t b = 0; b < truth.bands.size(); ++b) {
-        if (truth.bands[b].description == "fire_radiant_exitance") exitance = b;
-        if (truth.bands[b].description == "fraction_front") front = b;
-    }
+    const auto exitance = plane(truth, "fire_radiant_exitance"), front = plane(truth, "fraction_front");
     double sum_mir = 0.0, sum_true = 0.0;
     for (std::size_t i = 0; i < mir.size(); ++i) {
-        if (!(plane(truth, front)[i] > 0.999)) continue;
+        if (!(front[i] > 0.999)) continue;
         sum_mir += mir[i];
-        sum_true += plane(truth, exitance)[i];
+        sum_true += exitance[i];
     }
     EXPECT_GT(sum_true, 0.0);
     return sum_mir / sum_true;

@@ -57,7 +57,7 @@ void expect_plane(const sensors::Band& band, const std::vector<double>& radiance
         sum += L;
         n += 1.0;
     }
-    ASSERT_GT(n, 0.0) << where;  // field instruments have one pixel
+    ASSERT_GT(n, radiance.size() == 1 ? 0.0 : 3.0) << where;  // field instruments have one pixel
     if (truth > full_scale) {
         // Clipped; VIIRS I4 folds over here (267 against 8 x 4.65 W m-2 sr-1 um-1) and reads less.
         EXPECT_LE(sum / n, full_scale * (1.0 + 1e-6)) << where;

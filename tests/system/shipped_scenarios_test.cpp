@@ -33,13 +33,6 @@ void run_in(const std::filesystem::path& scenario, const std::filesystem::path& 
     pipeline::run(scenario::load(scenario), options, report);
 }
 
-std::size_t band_named(const gis::ImageFile& image, const std::string& description) {
-    for (std::size_t b = 0; b < image.bands.size(); ++b)
-        if (image.bands[b].description == description) return b;
-    ADD_FAILURE() << "no band " << description;
-    return 0;
-}
-
 std::string first_acquisition(const std::string& folder) {
     return scenario::load(scenario_file(folder)).acquisitions.front().id;
 }

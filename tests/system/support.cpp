@@ -1,5 +1,7 @@
 #include "system/support.h"
 
+#include <gtest/gtest.h>
+
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -58,6 +60,17 @@ std::vector<double> plane(const gis::ImageFile& image, std::size_t band) {
     const auto n = static_cast<std::ptrdiff_t>(image.cols) * image.rows;
     const auto first = image.pixels.begin() + static_cast<std::ptrdiff_t>(band) * n;
     return {first, first + n};
+}
+
+std::size_t band_named(const gis::ImageFile& image, const std::string& description) {
+    for (std::size_t b = 0; b < image.bands.size(); ++b)
+        if (image.bands[b].description == description) return b;
+    ADD_FAILURE() << "no band " << description;
+    return 0;
+}
+
+std::vector<double> plane(const gis::ImageFile& image, const std::string& description) {
+    return plane(image, band_named(image, description));
 }
 
 std::string file_bytes(const std::filesystem::path& file) {

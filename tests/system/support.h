@@ -38,8 +38,10 @@ void write_band(const std::filesystem::path& file, const MapGrid& grid, const st
                 const std::function<double(double x_m, double y_m)>& value,
                 const std::map<std::string, std::string>& band_metadata = {});
 
-/// One plane of an image.
+/// One plane of an image; of the band of that description, whose absence fails the test.
 std::vector<double> plane(const gis::ImageFile& image, std::size_t band);
+std::vector<double> plane(const gis::ImageFile& image, const std::string& description);
+std::size_t band_named(const gis::ImageFile& image, const std::string& description);
 
 std::string file_bytes(const std::filesystem::path& file);
 

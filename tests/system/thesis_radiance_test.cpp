@@ -65,12 +65,7 @@ gis::ImageFile run_thesis(const ScratchFolder& folder, gis::ImageFile& geolocati
     return gis::read_image(folder / "out" / "a" / "truth.tif");
 }
 
-double value(const gis::ImageFile& image, const std::string& name, std::size_t pixel) {
-    for (std::size_t b = 0; b < image.bands.size(); ++b)
-        if (image.bands[b].description == name) return plane(image, b)[pixel];
-    ADD_FAILURE() << "no band " << name;
-    return 0.0;
-}
+double value(const gis::ImageFile& image, const std::string& name, std::size_t pixel) { return plane(image, name)[pixel]; }
 
 /// Mean over a box of a product of quantities that are linear between the table's samples.
 double band_mean(

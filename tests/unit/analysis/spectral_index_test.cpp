@@ -56,7 +56,7 @@ TEST(DetectByIndex, FindsWhatStandsOutAndNothingInNoise) {
     std::normal_distribution<float> normal(-0.4F, 0.02F);
     std::vector<float> values(100000);
     for (float& v : values) v = normal(random);
-    const auto quiet = detect_by_index(values, {}, index, {});
+    const auto quiet = detect_by_index({.values = values}, index, {});
     EXPECT_NEAR(quiet.scene.median, -0.4, 0.001);
     EXPECT_NEAR(quiet.scene.deviation, 0.02, 0.001);
     const auto count = [](const Detection& d) { return std::count_if(d.fire.begin(), d.fire.end(), is_fire); };
@@ -65,17 +65,17 @@ TEST(DetectByIndex, FindsWhatStandsOutAndNothingInNoise) {
     values[17] = -0.12F;  // 14
     values[18] = 0.2F;    // 30
     values[19] = std::nanf("");
-    const auto found = detect_by_index(values, {}, index, {});
+    const auto found = detect_by_index({.values = values}, index, {});
     EXPECT_EQ(count(found.result), 2);
     EXPECT_EQ(found.result.fire[17], FireClass::Nominal);
     EXPECT_EQ(found.result.fire[18], FireClass::High);
     EXPECT_EQ(found.result.fire[19], FireClass::NotProcessed);
-    EXPECT_EQ(count(detect_by_index(values, {}, index, {.threshold = 0.0}).result), 1);
+    EXPECT_EQ(count(detect_by_index({.values = values}, index, {.threshold = 0.0}).result), 1);
     // A scene without any scatter: the least excess keeps rounding from being fire.
     std::vector<float> flat(1000, -0.4F);
     flat[5] = -0.395F;
     flat[6] = -0.1F;
-    EXPECT_EQ(count(detect_by_index(flat, {}, index, {}).result), 1);
+    EXPECT_EQ(count(detect_by_index({.values = flat}, index, {}).result), 1);
     // By night only fires are lit, so that the lit pixels are no background.
     const auto& line = *find_spectral_index("k-line");
     std::vector<float> night(1000, std::nanf(""));
@@ -84,10 +84,46 @@ TEST(DetectByIndex, FindsWhatStandsOutAndNothingInNoise) {
         night[i] = i < 6 ? 0.5F : -0.05F;  // flames, and glowing ground without potassium
         dark[i] = 0;
     }
-    const auto lit = detect_by_index(night, dark, line, {.night = true});
+    const auto lit = detect_by_index({.values = night, .dark = dark}, line, {.night = true});
     EXPECT_EQ(count(lit.result), 6);
     EXPECT_DOUBLE_EQ(lit.threshold, 0.02);
     EXPECT_EQ(lit.result.fire[500], FireClass::Clear);
+}
+
+TEST(DetectByIndex, KnowsNoiseByNightAndDetectorsAtTheirLimit) {
+    const auto& line = *find_spectral_index("k-line");
+    const std::vector<float> values{0.5F, 0.5F, 0.5F, -0.3F}, noise{0.05F, 0.09F, 0.0F, 0.0F};
+    const std::vector<unsigned char> burnt_out{0, 0, 0, 1};
+    const IndexScene scene{.values = values, .noise = noise, .burnt_out = burnt_out};
+    const auto night = detect_by_index(scene, line, {.night = true}).result.fire;
+    EXPECT_EQ(night,
+              (std::vector{FireClass::High, FireClass::Clear, FireClass::High, FireClass::High}));  // 10, 5.6 deviations
+    const auto told = detect_by_index(scene, line, {.threshold = 0.1, .night = true}).result.fire;
+    EXPECT_TRUE(is_fire(told[1]));  // the user's own threshold is the only one
+}
+
+TEST(SpectralIndexNoise, IsThatOfRepeatedMeasurements) {
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal;
+    const std::array<double, 3> L{0.9, 0.5, 0.7}, sd{0.02, 0.01, 0.015}, um{0.768, 0.7515, 0.7815};
+    for (const char* name : {"k-line", "co2", "hfdi", "aviris-co2", "aviris-k"}) {
+        const auto& index = *find_spectral_index(name);
+        constexpr std::size_t kMany = 40000;
+        std::array<std::vector<float>, 3> values;
+        for (std::size_t b = 0; b < 3; ++b) {
+            for (std::size_t i = 0; i < kMany; ++i) values[b].push_back(static_cast<float>(L[b] + sd[b] * normal(random)));
+        }
+        const std::array<std::span<const float>, 3> v{values[0], values[1], values[2]};
+        const auto measured = spectral_index(index, v, um);
+        double mean = 0.0, square = 0.0;
+        for (const float x : measured) mean += static_cast<double>(x) / kMany;
+        for (const float x : measured) square += std::pow(static_cast<double>(x) - mean, 2.0) / kMany;
+        std::array<std::vector<float>, 3> exact, one_sd;
+        for (std::size_t b = 0; b < 3; ++b) exact[b] = {static_cast<float>(L[b])}, one_sd[b] = {static_cast<float>(sd[b])};
+        const std::array<std::span<const float>, 3> ve{exact[0], exact[1], exact[2]}, se{one_sd[0], one_sd[1], one_sd[2]};
+        const double told = static_cast<double>(spectral_index_noise(index, ve, se, um)[0]);
+        EXPECT_NEAR(told / std::sqrt(square), 1.0, 0.03) << name;
+    }
 }
 
 TEST(BurnSeverity, HasTheClassesOfKeyAndBenson) {

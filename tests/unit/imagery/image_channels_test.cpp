@@ -25,12 +25,12 @@ TEST(Reflectances, AreThoseOfALambertianSurfaceUnderTheSun) {
     for (const auto& [lower, upper, sun] : {std::array{0.62, 0.67, 1606.0}, {0.841, 0.876, 986.0}, {2.105, 2.155, 93.0}}) {
         const double L =
             reflectance * sun * std::cos(sun_deg * 3.14159265 / 180.0) / 3.14159265 / (distance_AU * distance_AU);
-        const auto found = imagery::reflectances(boxcar(lower, upper, {static_cast<float>(L), static_cast<float>(L)}),
-                                                 {40.0F, 88.0F}, distance_AU);
+        const auto found =
+            reflectances(boxcar(lower, upper, {static_cast<float>(L), static_cast<float>(L)}), {40.0F, 88.0F}, distance_AU);
         EXPECT_NEAR(static_cast<double>(found[0]), reflectance, 0.03 * reflectance) << lower;
         EXPECT_TRUE(std::isnan(found[1]));  // the sun is too low
     }
-    EXPECT_EQ(imagery::reflectances(boxcar(0.62, 0.67, {0.25F}, "1"), {}, 1.0)[0], 0.25F);
+    EXPECT_EQ(reflectances(boxcar(0.62, 0.67, {0.25F}, "1"), {}, 1.0)[0], 0.25F);
 }
 
 TEST(Channel, FitsThePowerLawOfItsBand) {

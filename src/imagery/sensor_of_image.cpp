@@ -1,4 +1,4 @@
-#include "imagery/band_response.h"
+#include "imagery/sensor_of_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,8 @@ std::optional<sensors::Sensor> sensor_of_image(const gis::ImageInfo& info, const
     return sensors::load_sensor(named->second);
 }
 
-Spectrum band_response(const sensors::Sensor& sensor, const gis::OutputBand& band, const std::filesystem::path& image) {
+const sensors::Band& band_of_image(const sensors::Sensor& sensor, const gis::OutputBand& band,
+                                   const std::filesystem::path& image) {
     const auto id = band.metadata.find("band_id");
     int index = id == band.metadata.end() ? -1 : sensor.band_index(id->second);
     for (std::size_t b = 0; index < 0 && b < sensor.bands.size(); ++b)
@@ -26,7 +27,7 @@ Spectrum band_response(const sensors::Sensor& sensor, const gis::OutputBand& ban
             index = static_cast<int>(b);
     if (index < 0)
         throw input_error(image.string(), fmt::format("sensor {} has no band at {} um", sensor.id, *band.wavelength_um));
-    return sensor.bands[static_cast<std::size_t>(index)].response;
+    return sensor.bands[static_cast<std::size_t>(index)];
 }
 
 }  // namespace pyroscene::imagery
