@@ -1,11 +1,12 @@
 // Images: truth planes, coverage, weights, threads, cancelling.
 
 #include <gtest/gtest.h>
+
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <span>
 
 #include "base/constants.h"
@@ -70,7 +71,8 @@ render::ImageRequest nadir_request(int samples, int lines) {
 }
 
 bool same_bytes(std::span<const float> a, std::span<const float> b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+    const auto x = std::as_bytes(a), y = std::as_bytes(b);
+    return std::equal(x.begin(), x.end(), y.begin(), y.end());
 }
 
 TEST(Image, BytesDoNotDependOnTheNumberOfThreads) {
