@@ -8,6 +8,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "drawing/qgis_style.h"
 #include "gis/raster_output.h"
 
 namespace pyroscene::pipeline {
@@ -120,6 +121,7 @@ void write_state(const std::filesystem::path& path, const FireState& state, cons
                     {"HEAT_RELEASE_W", fmt::format("{:.17g}", state.heat_release_W)}};
     // The table first: a state file that exists is complete.
     if (!state.embers.empty()) write_embers(ember_path(path), state.embers);
+    drawing::write_qgis_style(path, {{0, "#dfe8d2", "unburned"}, {1, "#e31a1c", "front"}, {2, "#5a5048", "scar"}});
     gis::write_geotiff(path, out, std::span<const float>(pixels));
 }
 
