@@ -86,12 +86,12 @@ std::optional<std::size_t> largest(std::size_t n, const Figure& figure) {
     return best;
 }
 
-/// Where the median of the scores of pixels of pure background lies.
-std::optional<std::size_t> median_background(const Truth& truth, const std::vector<double>& score) {
+/// Where the median of the scores of pixels that hold nothing else lies.
+std::optional<std::size_t> median_of_pure(const char* name, const Truth& truth, const std::vector<double>& score) {
     constexpr double kPure = 0.9999;
     std::vector<std::size_t> pure;
     for (std::size_t i = 0; i < score.size(); ++i)
-        if (std::isfinite(score[i]) && truth.fraction("background", i) >= kPure) pure.push_back(i);
+        if (std::isfinite(score[i]) && truth.fraction(name, i) >= kPure) pure.push_back(i);
     if (pure.empty()) return {};
     const auto middle = pure.begin() + static_cast<std::ptrdiff_t>(pure.size() / 2);
     std::nth_element(pure.begin(), middle, pure.end(),
@@ -109,7 +109,7 @@ std::vector<std::pair<std::string, std::size_t>> pick(const std::optional<Truth>
             return score[i] + (truth ? kTie * (truth->fraction("flame", i) + truth->fraction("front", i)) : 0.0);
         }));
     if (!truth) return picked;
-    constexpr double kSeen = 1e-3, kHot_K = 1e4;
+    constexpr double kSeen = 1e-3;
     const auto most_of = [&](const char* name) {
         return largest(score.size(), [&](std::size_t i) {
             const double f = truth->fraction(name, i);
@@ -118,13 +118,12 @@ std::vector<std::pair<std::string, std::size_t>> pick(const std::optional<Truth>
     };
     add("flame", most_of("flame"));
     add("front", most_of("front"));
-    add("scar", largest(score.size(), [&](std::size_t i) {
+    const auto scar = median_of_pure("scar", *truth, score);
+    add("scar", scar ? scar : largest(score.size(), [&](std::size_t i) {
             const double f = truth->fraction("scar", i), fire = truth->fraction("flame", i) + truth->fraction("front", i);
-            if (!(f > kSeen) || fire > 0.0 || !std::isfinite(score[i])) return kNothing;
-            const double T_K = truth->ground_temperature_K.empty() ? 0.0 : truth->ground_temperature_K[i];
-            return f + (std::isfinite(T_K) ? T_K / kHot_K : 0.0);
+            return f > kSeen && fire == 0.0 && std::isfinite(score[i]) ? f : kNothing;
         }));
-    add("background", median_background(*truth, score));
+    add("background", median_of_pure("background", *truth, score));
     return picked;
 }
 
@@ -184,7 +183,8 @@ ImageDigest digest_image(const AcquisitionFiles& files) {
                       {},
                       kNothing,
                       kNothing,
-                      {}};
+                      {},
+                      std::vector<double>(digest.bands.size(), kNothing)};
         if (truth) {
             for (const auto& plane : truth->fractions) p.fractions.push_back(plane[i]);
             if (!truth->ground_temperature_K.empty()) p.ground_temperature_K = truth->ground_temperature_K[i];
@@ -199,6 +199,19 @@ ImageDigest digest_image(const AcquisitionFiles& files) {
     for (int b = 1; b <= bands; ++b) {
         const auto plane = radiance.read_band(b);
         for (auto& p : digest.picked) p.radiance_W_m2_sr_um.push_back(plane[at(p)]);
+    }
+    if (truth) {
+        gis::ImageStream stream(files.truth());
+        const auto& planes = stream.info().bands;
+        for (std::size_t b = 0; b < digest.bands.size(); ++b) {
+            const auto id = digest.bands[b].metadata.find("band_id");
+            if (id == digest.bands[b].metadata.end()) continue;
+            for (std::size_t k = 0; k < planes.size(); ++k) {
+                if (planes[k].description != id->second + " radiance_noise_free") continue;
+                const auto plane = stream.read_band(static_cast<int>(k) + 1);
+                for (auto& p : digest.picked) p.arriving_W_m2_sr_um[b] = plane[at(p)];
+            }
+        }
     }
     if (std::filesystem::exists(files.geolocation())) {
         gis::ImageStream geolocation(files.geolocation());

@@ -17,7 +17,8 @@ struct PickedPixel {
     double longitude_deg = 0.0, latitude_deg = 0.0;
     std::vector<double> fractions;                                 ///< as ImageDigest::mean_fractions; empty without truth
     double ground_temperature_K = 0.0, flame_temperature_K = 0.0;  ///< NaN without truth
-    std::vector<double> radiance_W_m2_sr_um;                       ///< per band
+    std::vector<double> radiance_W_m2_sr_um;                       ///< per band, as the detector reports it
+    std::vector<double> arriving_W_m2_sr_um;  ///< per band, before noise, clipping and counting; NaN without truth
 };
 
 /// Radiances of one band over the image.
@@ -38,8 +39,8 @@ struct ImageDigest {
 };
 
 /// Reads radiance, geolocation and, where they exist, truth and frp of one camera group; one band in memory at a time.
-/// Brightest: largest sum over bands of radiance / largest radiance of the band. Flame, front: largest seen fraction. Scar:
-/// largest fraction without fire, the hotter of equals. Background: the median of pixels that hold nothing else.
+/// Brightest: largest sum over bands of radiance / largest radiance of the band, then most fire. Flame, front: largest seen fraction.
+/// Scar, background: the median of pixels that hold nothing else; where no pixel is pure scar, the largest fraction without fire.
 ImageDigest digest_image(const AcquisitionFiles& files);
 
 }  // namespace pyroscene::pipeline

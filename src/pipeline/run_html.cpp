@@ -78,8 +78,13 @@ void show_spectra(drawing::HtmlPage& page, const ShownImage& shown) {
                            900,
                            420,
                            {}};
+    const bool arriving = std::all_of(digest.picked.begin(), digest.picked.end(), [](const auto& p) {
+        return std::all_of(p.arriving_W_m2_sr_um.begin(), p.arriving_W_m2_sr_um.end(),
+                           [](double L) { return std::isfinite(L); });
+    });
     for (const auto& p : digest.picked) {
-        drawing::PlotSeries series{p.kind, {}, p.radiance_W_m2_sr_um, digest.bands.size() == 1};
+        drawing::PlotSeries series{
+            p.kind, {}, arriving ? p.arriving_W_m2_sr_um : p.radiance_W_m2_sr_um, digest.bands.size() == 1};
         for (std::size_t b = 0; b < digest.bands.size(); ++b)
             series.x.push_back(digest.bands[b].wavelength_um.value_or(static_cast<double>(b + 1)));
         plot.series.push_back(std::move(series));
@@ -88,7 +93,9 @@ void show_spectra(drawing::HtmlPage& page, const ShownImage& shown) {
         std::any_of(digest.statistics.begin(), digest.statistics.end(), [](const auto& s) { return s.highest > 0.0; });
     if (positive && !plot.series.empty())
         page.picture(drawing::line_plots_png(std::span(&plot, 1)), "spectra of picked pixels of " + shown.id(),
-                     "Radiance as the detector reports it, band by band.");
+                     arriving
+                         ? "Radiance that arrives, before noise and saturation; the table has what the detector reports."
+                         : "Radiance as the detector reports it, band by band.");
     std::vector<std::string> head{"pixel", "sample", "line", "longitude", "latitude"};
     for (const auto& name : fraction_heads(digest)) head.push_back(name + " %");
     head.insert(head.end(), {"ground K", "flame K"});
@@ -103,7 +110,13 @@ void show_spectra(drawing::HtmlPage& page, const ShownImage& shown) {
         rows.back().push_back(number(p.ground_temperature_K));
         rows.back().push_back(number(p.flame_temperature_K));
         radiances.push_back({p.kind});
-        for (const auto b : bands) radiances.back().push_back(number(p.radiance_W_m2_sr_um[b]));
+        for (const auto b : bands) {
+            const auto limit = digest.bands[b].metadata.find("saturation_radiance");
+            constexpr double kRounding = 1e-5;  // the limit is kept in six digits
+            const bool clipped = limit != digest.bands[b].metadata.end() &&
+                                 p.radiance_W_m2_sr_um[b] >= std::stod(limit->second) * (1.0 - kRounding);
+            radiances.back().push_back(number(p.radiance_W_m2_sr_um[b]) + (clipped ? " (clipped)" : ""));
+        }
     }
     page.table(head, rows);
     page.table(radiance_head, radiances);

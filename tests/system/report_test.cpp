@@ -108,15 +108,15 @@ protected:
         write("radiance", {"1", "2"}, {1, 100, 50, 2, /**/ 3, 40, 80, 4});
         write("truth",
               {"fraction_flame", "fraction_front", "fraction_scar", "fraction_background", "ground_temperature",
-               "flame_temperature"},
+               "flame_temperature", "1 radiance_noise_free"},
               {0,      0,   0.5, 0, /**/ 0,   0.9,  0.5, 0,   /**/ 0, 0, 0,    1,
-               /**/ 1, 0.1, 0,   0, /**/ 300, 1000, 900, 500, /**/ 0, 0, 1100, 0});
+               /**/ 1, 0.1, 0,   0, /**/ 300, 1000, 900, 500, /**/ 0, 0, 1100, 0, /**/ 1, 140, 50, 2});
         write("frp", {"per area", "of the pixel"}, {0, 7, 7, 0, /**/ 0, 1.5, 2.25, std::nanf("")});
     }
     void write(const std::string& stem, const std::vector<std::string>& bands, const std::vector<float>& pixels) {
         gis::OutputRaster out;
         out.cols = 4, out.rows = 1;
-        for (const auto& name : bands) out.bands.push_back({name, "1", {}, {}, {}});
+        for (const auto& name : bands) out.bands.push_back({name, "1", {}, {}, {{"band_id", name}}});
         gis::write_geotiff(scratch_ / "a" / (stem + ".tif"), out, pixels);
     }
     [[nodiscard]] pipeline::ImageDigest digest() const { return pipeline::digest_image({scratch_ / "a", ""}); }
@@ -132,6 +132,8 @@ TEST_F(Digest, PicksTheRightPixels) {
     EXPECT_EQ(where,
               (std::map<std::string, int>{{"brightest", 2}, {"flame", 2}, {"front", 1}, {"scar", 3}, {"background", 0}}));
     EXPECT_EQ(d.picked[2].radiance_W_m2_sr_um, (std::vector<double>{100, 40}));
+    EXPECT_EQ(d.picked[2].arriving_W_m2_sr_um[0], 140.0);
+    EXPECT_TRUE(std::isnan(d.picked[2].arriving_W_m2_sr_um[1]));  // the truth does not hold band 2
     EXPECT_EQ(d.fire_pixels, 2U);
     ASSERT_TRUE(d.seen_frp_MW);
     EXPECT_DOUBLE_EQ(*d.seen_frp_MW, 3.75);
