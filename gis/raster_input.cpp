@@ -49,7 +49,8 @@ RasterInfo read_info(const std::filesystem::path& path) {
 }
 
 Raster<float> read_band(const BandRequest& request, const MapGrid& grid) {
-    const SourceBand source = open_band(request.file, request.band, request.unit);
+    SourceBand source = open_band(request.file, request.band, request.unit);
+    source.least = request.least;
     Raster<float> raster;
     raster.grid = grid;
     raster.name = request.name;

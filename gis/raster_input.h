@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,10 +14,11 @@ namespace pyroscene::gis {
 
 /// How a quantity goes from its own grid to the map grid.
 enum class Resampling {
-    Bilinear,  ///< terrain, temperatures: the surface through pixel centres, averaged over the cell where the file is finer
+    Bilinear,  ///< terrain, temperatures, arrival times: the surface through pixel centres, averaged over the cell where the file
+               ///< is finer; invalid neighbours drop out, and the outline of what is valid stays that of Nearest
     Conserve,  ///< heat flux, fuel load: area-weighted mean that keeps the integral over ground area; nodata and the outside
                ///< count as zero within a partly covered cell
-    Nearest    ///< classes, arrival time: the pixel that holds the cell's centre
+    Nearest    ///< classes: the pixel that holds the cell's centre
 };
 
 struct BandInfo {
@@ -55,6 +57,7 @@ struct BandRequest {
     Resampling resampling = Resampling::Bilinear;
     std::string name;  ///< canonical quantity, for messages and Raster::name
     std::string unit;  ///< canonical unit: "m", "W m-2", "kg m-2", "m s-1", "s", "K", "1", "kW m-1"
+    double least = -std::numeric_limits<double>::infinity();  ///< values below are no data, before anything is resampled
 };
 
 /// Reads a band onto the grid: nodata -> NaN, scale/offset applied, unit converted (kW/m2, ft, min, h, lb/ft2, mph, ... ->

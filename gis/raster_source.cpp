@@ -61,11 +61,11 @@ SourceBand open_band(const std::filesystem::path& path, int band, const std::str
 
 namespace {
 
-void convert_rows(const std::vector<double>& stored, const std::vector<std::uint8_t>& mask, double scale, double offset,
+void convert_rows(const std::vector<double>& stored, const std::vector<std::uint8_t>& mask, const SourceBand& source,
                   float* out) {
     for (std::size_t i = 0; i < stored.size(); ++i) {
-        const auto value = static_cast<float>(scale * stored[i] + offset);
-        const bool valid = (mask.empty() || mask[i] != 0) && std::isfinite(value);
+        const auto value = static_cast<float>(source.scale * stored[i] + source.offset);
+        const bool valid = (mask.empty() || mask[i] != 0) && std::isfinite(value) && value >= source.least;
         out[i] = valid ? value : std::numeric_limits<float>::quiet_NaN();
     }
 }
@@ -92,7 +92,7 @@ std::vector<float> read_window(const SourceBand& source, const PixelWindow& wind
                                                      window.cols, n, GDT_Byte, 0, 0, nullptr);
         }
         if (status != CE_None) throw input_error(source.subject, "cannot be read: " + errors.message());
-        convert_rows(stored, mask, source.scale, source.offset,
+        convert_rows(stored, mask, source,
                      values.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window.cols));
     }
     return values;

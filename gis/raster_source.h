@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct SourceBand {
     std::array<double, 6> geotransform{};
     CrsInfo crs;
     double scale = 1.0, offset = 0.0;  ///< canonical = scale * stored + offset (file's scale and offset, then the unit)
+    double least = -std::numeric_limits<double>::infinity();  ///< canonical values below are no data
 };
 
 /// A rectangle of pixels.

@@ -15,10 +15,12 @@
 namespace pyroscene::inputs {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr double kAboveZero = std::numeric_limits<float>::min();
 
-/// Reads a raster in the unit that the scenario says; a tag of the file must say the same.
-Raster<float> read(const scenario::UnitRaster& source, const char* name, const char* unit, const MapGrid& grid) {
+/// Reads a raster in the unit that the scenario says; a tag of the file must say the same. Values below `least` are no data, so that
+/// none of them is mixed into a neighbour.
+Raster<float> read(const scenario::UnitRaster& source, const char* name, const char* unit, double least,
+                   const MapGrid& grid) {
     const auto& file = source.raster.files.front();
     const int band = source.raster.bands.empty() ? 1 : source.raster.bands.front();
     const auto said = gis::unit_conversion(source.unit, unit);
@@ -31,30 +33,17 @@ Raster<float> read(const scenario::UnitRaster& source, const char* name, const c
             throw input_error(file.string(),
                               fmt::format("band {} says its unit is '{}', the scenario says '{}'", band, tag, source.unit));
     }
-    auto raster = gis::read_band({file, band, gis::Resampling::Nearest, name, ""}, grid);
+    auto raster = gis::read_band({file, band, gis::Resampling::Bilinear, name, "", least}, grid);
     raster.unit = unit;
     for (float& v : raster.values) v = static_cast<float>(v * said->scale + said->offset);
     return raster;
 }
 
-void keep_above_zero(Raster<float>& raster) {
-    for (float& v : raster.values)
-        if (!(v > 0.0F)) v = kNaN;
-}
-
 /// Times on the scenario's clock, NaN where the fire never came.
 Raster<float> arrival_times_s(const scenario::ArrivalModelSource& source, const MapGrid& grid) {
-    auto arrival = read(source.arrival, "arrival_time", "s", grid);
     const bool zero_is_burnt = source.model != "flammap";
-    bool any = false;
-    for (float& t : arrival.values) {
-        const bool reached = std::isfinite(t) && (t > 0.0F || (t == 0.0F && zero_is_burnt));
-        t = reached ? static_cast<float>(t + source.offset_s) : kNaN;
-        any = any || reached;
-    }
-    if (!any)
-        throw input_error(source.arrival.raster.files.front().string(),
-                          "no cell burns: all arrival times are negative or no data");
+    auto arrival = read(source.arrival, "arrival_time", "s", zero_is_burnt ? 0.0 : kAboveZero, grid);
+    for (float& t : arrival.values) t += static_cast<float>(source.offset_s);
     return arrival;
 }
 
@@ -81,29 +70,23 @@ ModelledFire read_arrival_model(const scenario::Scenario& scenario, const MapGri
     const auto& source = *scenario.inputs.arrival_model;
     ModelledFire fire;
     fire.ground.arrival_time_s = arrival_times_s(source, grid);
-    fire.frames_s = source.frames_s;
-    fire.mean_over_s = source.mean_over_s;
+    fire.frames_s = source.frames.times_s;
+    fire.mean_over_s = source.frames.mean_over_s;
     auto implied = fire::spread_rate_m_s(fire.ground.arrival_time_s, std::numeric_limits<double>::max());
     check_rate(implied, source, fire.warnings);
     std::optional<Raster<float>> rate;
     if (source.spread_rate) {
-        rate = read(*source.spread_rate, "spread_rate", "m s-1", grid);
-        keep_above_zero(*rate);
+        rate = read(*source.spread_rate, "spread_rate", "m s-1", kAboveZero, grid);
         for (std::size_t i = 0; i < implied.values.size(); ++i)
             if (!std::isnan(rate->values[i])) implied.values[i] = rate->values[i];
     }
     for (float& v : implied.values) v = std::min(v, static_cast<float>(scenario.fire.flames.maximum_spread_rate_m_s));
     fire.spread_rate_m_s = std::move(implied);
-    if (source.fireline_intensity) {
-        fire.fireline_intensity_W_m = read(*source.fireline_intensity, "fireline_intensity", "W m-1", grid);
-        keep_above_zero(*fire.fireline_intensity_W_m);
-    }
-    if (source.flame_length) {
-        fire.flame_length_m = read(*source.flame_length, "flame_length", "m", grid);
-        keep_above_zero(*fire.flame_length_m);
-    }
+    if (source.fireline_intensity)
+        fire.fireline_intensity_W_m = read(*source.fireline_intensity, "fireline_intensity", "W m-1", kAboveZero, grid);
+    if (source.flame_length) fire.flame_length_m = read(*source.flame_length, "flame_length", "m", kAboveZero, grid);
     const auto models = fuel_models(source.fuel);
-    add_fuel(fire, fuel_of_cells(source.fuel, models, grid), models, source.coarse_burn_time_s,
+    add_fuel(fire, fuel_of_cells(source.fuel, models, grid), models, source.frames.coarse_burn_time_s,
              [&](std::size_t, double) { return source.fuel_moisture_pct / 100.0; });
     if (rate && fire.fireline_intensity_W_m)
         for (std::size_t i = 0; i < grid.size(); ++i) {

@@ -43,7 +43,7 @@ std::optional<Raster<float>> spread_rate(const Scenario& s, const MapGrid& grid,
     std::optional<Raster<float>> rate;
     if (arrival_s) rate = fire::spread_rate_m_s(*arrival_s, s.fire.flames.maximum_spread_rate_m_s);
     if (!s.inputs.spread_rate) return rate;
-    auto given = read(*s.inputs.spread_rate, grid, gis::Resampling::Nearest, "spread rate", "m s-1");
+    auto given = read(*s.inputs.spread_rate, grid, gis::Resampling::Bilinear, "spread rate", "m s-1");
     for (std::size_t i = 0; rate && i < given.values.size(); ++i)
         if (std::isnan(given.values[i])) given.values[i] = rate->values[i];
     return given;
@@ -80,9 +80,9 @@ fire::FrontInputs load_front_inputs(const Scenario& scenario, const Raster<float
     fire::FrontInputs front;
     if (inputs.fireline_intensity)
         front.fireline_intensity_W_m =
-            read(*inputs.fireline_intensity, grid, gis::Resampling::Nearest, "fireline intensity", "W m-1");
+            read(*inputs.fireline_intensity, grid, gis::Resampling::Bilinear, "fireline intensity", "W m-1");
     if (inputs.flame_length)
-        front.flame_length_m = read(*inputs.flame_length, grid, gis::Resampling::Nearest, "flame length", "m");
+        front.flame_length_m = read(*inputs.flame_length, grid, gis::Resampling::Bilinear, "flame length", "m");
     if (modelled == nullptr && (needs.spread || inputs.spread_rate))
         front.spread_rate_m_s = spread_rate(scenario, grid, arrival_time_s);
     if (needs.fuel && inputs.fuel_load)

@@ -114,7 +114,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario, const std::function<void
     if (scenario.inputs.arrival_model) in.modelled = read_arrival_model(scenario, in.grid);
     if (scenario.inputs.spread)
         in.modelled = spread_own_fire(scenario, in.terrain_m, [&](double time_s) {
-            if (on_progress) on_progress(time_s / scenario.inputs.spread->frames_s.back());
+            if (on_progress) on_progress(time_s / scenario.inputs.spread->frames.times_s.back());
         });
     if (in.modelled) {
         for (const double time_s : in.modelled->frames_s) in.frames.push_back({{}, 0, time_s});
@@ -126,7 +126,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario, const std::function<void
     in.scar_class = scar_classes(scenario, in.grid);
     if (const auto& arrival = scenario.inputs.arrival)
         in.arrival_time_s = gis::read_band(
-            {arrival->files.front(), first_band(*arrival), gis::Resampling::Nearest, "arrival time", "s"}, in.grid);
+            {arrival->files.front(), first_band(*arrival), gis::Resampling::Bilinear, "arrival time", "s"}, in.grid);
     in.front = load_front_inputs(scenario, in.terrain_m, in.arrival_time_s, in.modelled ? &*in.modelled : nullptr);
     in.origin_m = {0.5 * (in.grid.west_m + in.grid.east_m()), 0.5 * (in.grid.south_m() + in.grid.north_m), 0.0};
     in.centre = gis::MapProjection(in.grid.crs_wkt).to_geodetic(in.origin_m.x, in.origin_m.y, in.mean_height_m);

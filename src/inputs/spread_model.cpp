@@ -113,7 +113,7 @@ ModelledFire spread_own_fire(const Scenario& scenario, const Raster<float>& terr
                                      source.ignition.empty() ? source.line : source.ignition.front().line_number);
     if (seeds.empty()) throw input_error(subject, "lies outside the map; expected a place on it");
     const auto weather = spread_weather(scenario, terrain_m.grid);
-    auto spread = spread::spread_fire(land, weather, source.rules, seeds, source.frames_s.back(), on_progress);
+    auto spread = spread::spread_fire(land, weather, source.rules, seeds, source.frames.times_s.back(), on_progress);
     const auto& arrival = spread.arrival_time_s.values;
     if (std::all_of(arrival.begin(), arrival.end(), [](float t) { return std::isnan(t); }))
         throw input_error(subject, "lights nothing: there is no fuel that burns, it is too wet, or the end comes before it");
@@ -123,11 +123,11 @@ ModelledFire spread_own_fire(const Scenario& scenario, const Raster<float>& terr
     fire.fireline_intensity_W_m = std::move(spread.fireline_intensity_W_m);
     fire.flame_length_m = std::move(spread.flame_length_m);
     fire.cells_with_limited_wind = spread.cells_with_limited_wind;
-    fire.frames_s = source.frames_s;
-    fire.mean_over_s = source.mean_over_s;
+    fire.frames_s = source.frames.times_s;
+    fire.mean_over_s = source.frames.mean_over_s;
     std::vector<double> times_s;
     for (const auto& w : weather) times_s.push_back(w.from_s);
-    add_fuel(fire, land.fuel, land.models, source.coarse_burn_time_s, [&](std::size_t cell, double time_s) {
+    add_fuel(fire, land.fuel, land.models, source.frames.coarse_burn_time_s, [&](std::size_t cell, double time_s) {
         return weather[holding(times_s, time_s)].moisture[spread::kOneHour].at(cell);
     });
     return fire;

@@ -106,7 +106,7 @@ std::vector<spread::Weather> spread_weather(const Scenario& scenario, const MapG
     for (const auto* list : {&table.times_s, &rasters.times_s, &wind_times}) times_s.insert(list->begin(), list->end());
     std::vector<spread::Weather> weather;
     for (const double time_s : times_s) {
-        if (time_s < 0.0 || time_s > source.frames_s.back()) continue;
+        if (time_s < 0.0 || time_s > source.frames.times_s.back()) continue;
         auto& w = weather.emplace_back();
         w.from_s = time_s;
         auto wind = wind_at(scenario, grid, 1, 0, time_s);

@@ -60,8 +60,8 @@ std::string text(const scenario::ArrivalModelSource& s) {
     std::string out = text(s.arrival.raster) + fmt::format("{}|{}|{};", s.model, s.arrival.unit, s.offset_s) + text(s.fuel);
     for (const auto* raster : {&s.fireline_intensity, &s.flame_length, &s.spread_rate})
         out += *raster ? text((*raster)->raster) + (*raster)->unit : "-;";
-    return out +
-           fmt::format("{}|{}|{}|{};", s.fuel_moisture_pct, fmt::join(s.frames_s, ","), s.mean_over_s, s.coarse_burn_time_s);
+    return out + fmt::format("{}|{}|{}|{};", s.fuel_moisture_pct, fmt::join(s.frames.times_s, ","), s.frames.mean_over_s,
+                             s.frames.coarse_burn_time_s);
 }
 
 std::string spread_text(const scenario::SpreadSource& s) {
@@ -70,8 +70,8 @@ std::string spread_text(const scenario::SpreadSource& s) {
     out += s.moisture_raster ? text(*s.moisture_raster) : "-;";
     out += text(s.canopy_cover) + text(s.canopy_height_m);
     return out + fmt::format("{}|{}|{}|{}|{}|{}|{};", s.crown_ratio, static_cast<int>(s.rules.wind_height),
-                             static_cast<int>(s.rules.curing), s.rules.wind_limit, fmt::join(s.frames_s, ","), s.mean_over_s,
-                             s.coarse_burn_time_s);
+                             static_cast<int>(s.rules.curing), s.rules.wind_limit, fmt::join(s.frames.times_s, ","),
+                             s.frames.mean_over_s, s.frames.coarse_burn_time_s);
 }
 
 std::string fire_text(const Scenario& s) {

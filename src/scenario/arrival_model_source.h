@@ -4,9 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "scenario/fire_frames.h"
 #include "scenario/fuel_source.h"
 
 namespace pyroscene::scenario {
+
+/// Units that a scenario may say.
+inline const std::vector<std::string> kTimeUnits{"s", "min", "h"}, kIntensityUnits{"W/m", "kW/m", "Btu/ft/s"},
+    kLengthUnits{"m", "ft"}, kRateUnits{"m/s", "m/min", "ft/min", "chain/h"};
 
 /// A raster whose unit the scenario says.
 struct UnitRaster {
@@ -22,9 +27,7 @@ struct ArrivalModelSource {
     std::optional<UnitRaster> fireline_intensity, flame_length, spread_rate;
     FuelSource fuel;
     double fuel_moisture_pct = 8.0;
-    std::vector<double> frames_s;
-    double mean_over_s = 6.0;
-    double coarse_burn_time_s = 300.0;
+    FireFrames frames;
 };
 
 }  // namespace pyroscene::scenario

@@ -58,21 +58,17 @@ ArrivalModelSource read_arrival_model(const config::Node& node, const fs::path& 
     const auto read = [&](const config::Node& key, const char* unit, const std::vector<std::string>& units) {
         return read_unit_raster(key, folder, usual->name, unit, units);
     };
-    source.arrival = read(node.required_child("arrival"), usual->time, {"s", "min", "h"});
+    source.arrival = read(node.required_child("arrival"), usual->time, kTimeUnits);
     source.offset_s = node.number("offset_s", source.offset_s, Range::between(-1e8, 1e8));
     if (const auto key = node.child("fireline_intensity"); key.present())
-        source.fireline_intensity = read(key, usual->intensity, {"W/m", "kW/m", "Btu/ft/s"});
+        source.fireline_intensity = read(key, usual->intensity, kIntensityUnits);
     if (const auto key = node.child("flame_length"); key.present())
-        source.flame_length = read(key, usual->length, {"m", "ft"});
-    if (const auto key = node.child("spread_rate"); key.present())
-        source.spread_rate = read(key, usual->rate, {"m/s", "m/min", "ft/min", "chain/h"});
+        source.flame_length = read(key, usual->length, kLengthUnits);
+    if (const auto key = node.child("spread_rate"); key.present()) source.spread_rate = read(key, usual->rate, kRateUnits);
     if (const auto fuel = node.child("fuel"); fuel.present() || !has_landscape)
         source.fuel = read_fuel(node.required_child("fuel"), folder);
     source.fuel_moisture_pct = node.number("fuel_moisture_pct", source.fuel_moisture_pct, Range::between(0.0, 300.0));
-    const auto frames = read_fire_frames(node);
-    source.frames_s = frames.times_s;
-    source.mean_over_s = frames.mean_over_s;
-    source.coarse_burn_time_s = node.number("coarse_burn_time_s", source.coarse_burn_time_s, Range::between(1.0, 1e5));
+    source.frames = read_fire_frames(node);
     node.finish();
     return source;
 }

@@ -84,8 +84,10 @@ FuelSource read_fuel(const config::Node& node, const fs::path& folder) {
 }
 
 FireFrames read_fire_frames(const config::Node& node) {
-    FireFrames frames{read_frames(node), 6.0};
+    FireFrames frames;
+    frames.times_s = read_frames(node);
     frames.mean_over_s = read_mean_over(node, frames.times_s);
+    frames.coarse_burn_time_s = node.number("coarse_burn_time_s", frames.coarse_burn_time_s, Range::between(1.0, 1e5));
     return frames;
 }
 

@@ -128,10 +128,7 @@ SpreadSource read_spread(const config::Node& node, const fs::path& folder, bool 
     source.rules.curing = node.choice("curing", "behave", {"behave", "linear"}) == "behave" ? spread::Curing::BehavePlus
                                                                                             : spread::Curing::Linear;
     source.rules.wind_limit = node.boolean("wind_limit", false);
-    const auto frames = read_fire_frames(node);
-    source.frames_s = frames.times_s;
-    source.mean_over_s = frames.mean_over_s;
-    source.coarse_burn_time_s = node.number("coarse_burn_time_s", source.coarse_burn_time_s, Range::between(1.0, 1e5));
+    source.frames = read_fire_frames(node);
     node.finish();
     return source;
 }

@@ -29,11 +29,7 @@ RasterSource read_raster_series(const config::Node& node, const std::filesystem:
 ArrivalModelSource read_arrival_model(const config::Node& node, const std::filesystem::path& folder, bool has_landscape);
 /// The key `fuel` of a fire that the program computes.
 FuelSource read_fuel(const config::Node& node, const std::filesystem::path& folder);
-/// Times of the frames of such a fire: frames_s, or duration_s and frame_step_s; mean_over_s.
-struct FireFrames {
-    std::vector<double> times_s;
-    double mean_over_s = 6.0;
-};
+/// The frames of such a fire: frames_s, or duration_s and frame_step_s; mean_over_s; coarse_burn_time_s.
 FireFrames read_fire_frames(const config::Node& node);
 WrfSource read_wrf(const config::Node& node, const std::filesystem::path& folder);
 /// The code scheme of fuel classes: fbfm13, fbfm40 or a CSV file. Reports anything else.

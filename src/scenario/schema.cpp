@@ -1,3 +1,4 @@
+#include "scenario/schema.h"
 #include "scenario/scenario.h"
 
 namespace pyroscene::scenario {
@@ -26,197 +27,7 @@ constexpr const char* kSchema = R"json({
     },
     "geoid_undulation_m": {"type": "number", "minimum": -120, "maximum": 120, "default": 0,
       "description": "added to terrain heights to make them ellipsoidal"},
-    "inputs": {
-      "type": "object",
-      "additionalProperties": false,
-      "anyOf": [{"required": ["terrain"]}, {"required": ["landscape"]}, {"required": ["wrf_sfire"]}],
-      "oneOf": [{"required": ["heat_flux"], "not": {"required": ["wrf_sfire"]}}, {"required": ["wrf_sfire"]},
-                {"required": ["spread"]}, {"required": ["arrival_model"]}],
-      "properties": {
-        "terrain": {"$ref": "#/$defs/static", "description": "elevation, m"},
-        "landscape": {
-          "description": "terrain, fuel and canopy in one file of FARSITE (LCP) or LANDFIRE (GeoTIFF); inputs beside it go before its bands",
-          "type": "object",
-          "additionalProperties": false,
-          "required": ["file", "scheme"],
-          "properties": {
-            "file": {"type": "string"},
-            "scheme": {"type": "string", "description": "what the fuel codes count: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
-              "examples": ["fbfm13", "fbfm40", "fbfm53"]},
-            "custom": {"type": "string", "description": "CSV file of more fuel models"},
-            "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"},
-            "crs": {"type": "string", "description": "of a file that does not say its own"}
-          }
-        },
-        "heat_flux": {"$ref": "#/$defs/series", "description": "sensible heat flux of the surface fire, W m-2"},
-        "fuel_load": {"$ref": "#/$defs/series", "description": "fuel load, kg m-2"},
-        "wind": {
-          "description": "rasters of u and v (m s-1) or one vector for the whole map; absent: calm",
-          "type": "object",
-          "additionalProperties": false,
-          "properties": {
-            "file": {"type": "string"},
-            "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
-            "bands": {
-              "description": "u, v of each frame; [u, v] = as stored: 1, 2 (3, 4, ...)",
-              "oneOf": [{"const": ["u", "v"]},
-                        {"type": "array", "minItems": 2, "items": {"type": "integer", "minimum": 1, "maximum": 65535}}]
-            },
-            "times_s": {"$ref": "#/$defs/times_s"},
-            "speed": {"$ref": "#/$defs/wind_speed"},
-            "speed_m_s": {"$ref": "#/$defs/wind_speed"},
-            "from_deg": {"type": "number", "minimum": -360, "maximum": 360,
-              "description": "where the wind comes from, clockwise from true north"},
-            "table": {"type": "string", "description": "CSV file of a station: time_s, speed_m_s, from_deg; instead of the others"}
-          }
-        },
-        "arrival": {"$ref": "#/$defs/static", "description": "time of arrival of the fire, s since start"},
-        "fireline_intensity": {"$ref": "#/$defs/static", "description": "as the front passes, W m-1"},
-        "flame_length": {"$ref": "#/$defs/static", "description": "along the leaning axis, m; for flame_height.method: raster"},
-        "spread_rate": {"$ref": "#/$defs/static", "description": "of the front, m s-1; default: from arrival"},
-        "arrival_model": {
-          "description": "a fire known by the arrival times that FARSITE, FlamMap, ELMFIRE or another program computed",
-          "type": "object",
-          "additionalProperties": false,
-          "required": ["model", "arrival"],
-          "properties": {
-            "model": {"enum": ["farsite", "flammap", "elmfire", "pyretechnics", "forefire", "other"]},
-            "arrival": {"type": "object", "additionalProperties": false, "required": ["file"],
-              "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["s", "min", "h"]}}},
-            "fireline_intensity": {"type": "object", "additionalProperties": false, "required": ["file"],
-              "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["W/m", "kW/m", "Btu/ft/s"]}}},
-            "flame_length": {"type": "object", "additionalProperties": false, "required": ["file"],
-              "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["m", "ft"]}}},
-            "spread_rate": {"type": "object", "additionalProperties": false, "required": ["file"],
-              "properties": {"file": {"type": "string"}, "band": {"$ref": "#/$defs/band"}, "unit": {"enum": ["m/s", "m/min", "ft/min", "chain/h"]}}},
-            "offset_s": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "start of the model's clock after 'start'; without it: 0"},
-            "fuel": {"$ref": "#/$defs/fuel"},
-            "fuel_moisture_pct": {"type": "number", "minimum": 0, "maximum": 300, "description": "without it: 8"},
-            "duration_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7},
-            "frame_step_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "description": "without it: 300"},
-            "frames_s": {"type": "array", "minItems": 1, "items": {"type": "number"}, "description": "instead of both"},
-            "mean_over_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7,
-              "description": "default: 6, or the shortest time between frames when that is less"},
-            "coarse_burn_time_s": {"type": "number", "minimum": 1, "maximum": 1e5, "description": "without it: 300"}
-          }
-        },
-        "wrf_sfire": {
-          "description": "history files of WRF-SFIRE or WRF-Fire, one or several; inputs beside them go before theirs",
-          "oneOf": [
-            {"type": "string"},
-            {"type": "array", "minItems": 1, "items": {"type": "string"}},
-            {"type": "object",
-             "additionalProperties": false,
-             "properties": {
-               "file": {"type": "string"},
-               "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
-               "crs": {"type": "string", "description": "projected, metres; of an idealised run, which has none"},
-               "west_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "its western edge"},
-               "south_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "its southern edge"},
-               "fuel_table": {"type": "string", "description": "what NFUEL_CAT counts: fbfm13, fbfm40 or a CSV file code,surface"}
-             }}
-          ]
-        },
-        "spread": {
-          "description": "a fire that the program spreads itself, instead of heat_flux, fuel_load, arrival and what a front shows",
-          "type": "object",
-          "additionalProperties": false,
-          "required": ["ignition", "moisture"],
-          "properties": {
-            "fuel": {"$ref": "#/$defs/fuel"},
-            "ignition": {"type": "array", "minItems": 1, "items": {
-              "type": "object",
-              "additionalProperties": false,
-              "properties": {
-                "file": {"type": "string", "description": "any vector format"},
-                "layer": {"type": "string"},
-                "point": {"$ref": "#/$defs/position"},
-                "points": {"$ref": "#/$defs/positions"},
-                "line": {"$ref": "#/$defs/positions"},
-                "polygon": {"$ref": "#/$defs/positions"},
-                "crs": {"type": "string", "description": "of the coordinates; default: the map's"},
-                "time_s": {"type": "number", "minimum": 0, "maximum": 1e8, "description": "from when on it burns; without it: 0"}
-              }}},
-            "barriers": {"type": "array", "minItems": 1, "items": {
-              "type": "object",
-              "additionalProperties": false,
-              "properties": {
-                "file": {"type": "string", "description": "any vector format"},
-                "layer": {"type": "string"},
-                "point": {"$ref": "#/$defs/position"},
-                "points": {"$ref": "#/$defs/positions"},
-                "line": {"$ref": "#/$defs/positions"},
-                "polygon": {"$ref": "#/$defs/positions"},
-                "crs": {"type": "string", "description": "of the coordinates; default: the map's"}
-              }}},
-            "moisture": {
-              "description": "of the fuel, per cent of its dry mass: numbers, a table, or rasters",
-              "type": "object",
-              "additionalProperties": false,
-              "properties": {
-                "m1h_pct": {"$ref": "#/$defs/moisture_pct"},
-                "m10h_pct": {"$ref": "#/$defs/moisture_pct"},
-                "m100h_pct": {"$ref": "#/$defs/moisture_pct"},
-                "mherb_pct": {"$ref": "#/$defs/moisture_pct"},
-                "mwoody_pct": {"$ref": "#/$defs/moisture_pct"},
-                "table": {"type": "string", "description": "CSV: time_s and the moistures that have no number"},
-                "file": {"type": "string", "description": "five bands for each moment, in the order of the keys"},
-                "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
-                "bands": {"type": "array", "minItems": 5, "items": {"$ref": "#/$defs/band"}},
-                "times_s": {"$ref": "#/$defs/times_s"}
-              }
-            },
-            "canopy": {
-              "description": "trees, which shelter the fuel from the wind",
-              "type": "object",
-              "additionalProperties": false,
-              "properties": {
-                "cover": {"description": "0 to 1, or a raster",
-                  "oneOf": [{"type": "number", "minimum": 0, "maximum": 1}, {"$ref": "#/$defs/scaled"}]},
-                "height_m": {"description": "0 to 150, or a raster",
-                  "oneOf": [{"type": "number", "minimum": 0, "maximum": 150}, {"$ref": "#/$defs/scaled"}]},
-                "crown_ratio": {"type": "number", "minimum": 0, "maximum": 1, "description": "without it: 0.5"}
-              }
-            },
-            "wind_height": {"enum": ["midflame", "20ft", "10m"], "description": "without it: 20ft"},
-            "wind_limit": {"type": "boolean", "description": "without it: false"},
-            "curing": {"enum": ["behave", "linear"], "description": "without it: behave"},
-            "duration_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7},
-            "frame_step_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7, "description": "without it: 300"},
-            "frames_s": {"type": "array", "minItems": 1, "items": {"type": "number"}, "description": "instead of both"},
-            "mean_over_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e7,
-              "description": "default: 6, or the shortest time between frames when that is less"},
-            "coarse_burn_time_s": {"type": "number", "minimum": 1, "maximum": 1e5, "description": "without it: 300"}
-          }
-        },
-        "plume": {
-          "description": "three-dimensional field above the fire, one band per level",
-          "type": "object",
-          "additionalProperties": false,
-          "required": ["levels_m"],
-          "properties": {
-            "file": {"type": "string"},
-            "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
-            "times_s": {"$ref": "#/$defs/times_s"},
-            "levels_m": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},
-              "description": "heights above the terrain, ascending, one per band"},
-            "quantity": {"enum": ["temperature", "excess", "buoyancy"], "description": "without it: temperature"},
-            "variable": {"type": "string", "description": "of a netCDF file with several"}
-          }
-        },
-        "cover": {
-          "description": "class of each cell and the table that gives each class a surface spectrum",
-          "type": "object",
-          "additionalProperties": false,
-          "required": ["file", "table"],
-          "properties": {
-            "file": {"type": "string"},
-            "band": {"$ref": "#/$defs/band"},
-            "table": {"type": "string", "description": "fbfm13, fbfm40, fbfm53 or a CSV file", "examples": ["fbfm13", "fbfm40", "fbfm53"]}
-          }
-        }
-      }
-    },
+    "inputs": {"$ref": "#/$defs/inputs"},
     "start": {"type": "string", "description": "ignition, UTC", "examples": ["2017-07-15T22:00:00Z"],
       "pattern": "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}(:[0-9]{2}([.][0-9]+)?)?Z$"},
     "physics": {"enum": ["default", "thesis"], "default": "default"},
@@ -495,8 +306,11 @@ constexpr const char* kSchema = R"json({
     },
     "seed": {"type": "integer", "minimum": 0, "default": 1}
   },
-  "$defs": {
-    "name": {"type": "string", "maxLength": 100, "pattern": "^[A-Za-z0-9][A-Za-z0-9._-]*$"},
+)json";
+
+/// What several keys refer to.
+constexpr const char* kDefinitions =
+    R"json(    "name": {"type": "string", "maxLength": 100, "pattern": "^[A-Za-z0-9][A-Za-z0-9._-]*$"},
     "words": {"type": "array", "minItems": 1, "items": {"type": "string"}},
     "temperature_K": {"type": "number", "minimum": 200, "maximum": 3500},
     "mole_fraction": {"type": "number", "minimum": 0, "maximum": 1},
@@ -557,6 +371,6 @@ constexpr const char* kSchema = R"json({
 
 }  // namespace
 
-std::string json_schema() { return kSchema; }
+std::string json_schema() { return kSchema + std::string("  \"$defs\": {\n") + input_definitions() + kDefinitions; }
 
 }  // namespace pyroscene::scenario

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scenario/fire_frames.h"
 #include "scenario/fuel_source.h"
 #include "spread/landscape.h"
 
@@ -39,9 +40,7 @@ struct SpreadSource {
     bool has_canopy = false;  ///< the scenario says something of it
     double crown_ratio = 0.5;
     spread::SpreadRules rules;
-    std::vector<double> frames_s;       ///< times of the heat flux, ascending; the last is the end
-    double mean_over_s = 6.0;           ///< the flux of a frame is the mean over so many seconds before it
-    double coarse_burn_time_s = 300.0;  ///< e-folding time of 10-h and 100-h fuel
+    FireFrames frames;
     int line = 0;
 };
 

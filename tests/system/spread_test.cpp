@@ -156,6 +156,36 @@ TEST_F(SpreadScenario, ComesBackAsTheArrivalTimesOfAnotherProgram) {
     EXPECT_NE(late.output.find("check inputs.arrival_model.arrival.unit"), std::string::npos) << late.output;
 }
 
+// A front of 0.5 m/s in cells of 20 m on a map of 8 m: no steps in time, the edge of the burn where it was, all heat of the fuel.
+TEST_F(SpreadScenario, ArrivalTimesOnAFinerMapAreSmoothAndKeepTheHeat) {
+    constexpr double kRate_m_s = 0.5, kWest_m = 500000.0, kEdge_m = 500400.0;
+    write_band(scratch / "toa.tif", grid_, "",
+               [](double x, double) { return x < kEdge_m ? (x - kWest_m) / kRate_m_s / 60.0 : -9999.0; });
+    write_band(scratch / "grass.tif", grid_, "", [](double, double) { return 1.0; });
+    const auto file =
+        write_scenario("fine",
+                       "  arrival_model:\n    model: other\n    arrival: {file: toa.tif, unit: min}\n"
+                       "    flame_length: {file: grass.tif, unit: m}\n    fuel: {file: grass.tif, table: fbfm13}\n"
+                       "    duration_s: 3000\n    frame_step_s: 100\n    mean_over_s: 100\n");
+    std::ofstream(file, std::ios::app) << "map: {crs: EPSG:32611, cell_m: 8}\n";
+    const auto report = run_phase(&pipeline::spread, file, scratch / "fire");
+    const auto arrival = gis::read_image(scratch / "fire" / "arrival.tif");
+    int burnt = 0;
+    for (int row = 0; row < arrival.rows; ++row)
+        for (int col = 0; col < arrival.cols; ++col) {
+            const double t = arrival.pixels[static_cast<std::size_t>(row * arrival.cols + col)], x = (col + 0.5) * 8.0;
+            ASSERT_EQ(std::isnan(t), x > kEdge_m - kWest_m) << row << ' ' << col;
+            burnt += std::isnan(t) ? 0 : 1;
+            if (x > 10.0 && x < 390.0) {
+                ASSERT_NEAR(t, x / kRate_m_s, 1e-3) << row << ' ' << col;
+            }
+        }
+    // Anderson's model 1 holds 0.74 short tons per acre of dry fuel; 8 % of moisture (SFIRE: 17.433 MJ/kg of the moist mass).
+    const double load_kg_m2 = report.at("spread/fuel_burnt_kg") / (burnt * 64.0);
+    EXPECT_NEAR(load_kg_m2, 0.74 * 0.224170, 1e-3);
+    EXPECT_NEAR(report.at("spread/heat_released_J") / (burnt * 64.0 * load_kg_m2 * 17.433e6 / 1.08), 1.0, 1e-6);
+}
+
 TEST_F(SpreadScenario, IsTheSameForAnyNumberOfThreads) {
     run_phase(&pipeline::spread, own_fire(), scratch / "one", 1);
     run_phase(&pipeline::spread, own_fire(), scratch / "three", 3);

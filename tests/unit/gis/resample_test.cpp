@@ -173,5 +173,32 @@ TEST(AnyRule, SouthUpAndRotatedSourcesLieWhereTheyAre) {
     }
 }
 
+// Arrival times without a nodata tag: -9999 must not bleed into the burnt cells beside it, nor move the edge of the burn.
+TEST(Bilinear, KeepsSentinelsOutAndTheEdgeInPlace) {
+    const TempFolder folder;
+    constexpr int kBurnt = 12;
+    SourceRaster source{.cols = 20, .rows = 10};
+    source.band([](int col, int row) { return col < kBurnt ? 60.0 * col + 7.0 * row : -9999.0; }).write(folder / "a.tif");
+    MapGrid fine = grid_of(source);
+    fine.cols *= 3, fine.rows *= 3, fine.cell_m /= 3.0;
+    const BandRequest request{
+        .file = folder / "a.tif", .resampling = Resampling::Bilinear, .name = "arrival", .unit = "s", .least = 0.0};
+    const auto time = read_band(request, fine);
+    for (int row = 0; row < fine.rows; ++row)
+        for (int col = 0; col < fine.cols; ++col) {
+            const float value = time.at(row, col);
+            ASSERT_EQ(std::isnan(value), col >= 3 * kBurnt) << row << ' ' << col;
+            // Centres of source pixels lie at 1, 4, 7, ... of the fine grid; beyond the outermost the plane is not continued.
+            const double x = (col - 1) / 3.0, y = std::clamp((row - 1) / 3.0, 0.0, source.rows - 1.0);
+            if (col < 3 * kBurnt) {
+                EXPECT_NEAR(value, 60.0 * std::clamp(x, 0.0, kBurnt - 1.0) + 7.0 * y, 1e-3) << row << ' ' << col;
+            }
+        }
+    // On its own grid the values are the file's.
+    const auto same = read_band(request, grid_of(source));
+    EXPECT_EQ(same.at(3, 5), 321.0F);
+    EXPECT_TRUE(std::isnan(same.at(3, kBurnt)));
+}
+
 }  // namespace
 }  // namespace pyroscene::gis

@@ -29,7 +29,7 @@ TEST(ArrivalModel, KnowsTheUnitsThatAProgramAlwaysWrites) {
     EXPECT_EQ(m.offset_s, -60.0);
     EXPECT_EQ(m.fuel_moisture_pct, 8.0);
     EXPECT_EQ(m.fuel.table, "fbfm13");
-    EXPECT_EQ(m.frames_s, std::vector{300.0});
+    EXPECT_EQ(m.frames.times_s, std::vector{300.0});
 }
 
 TEST(ArrivalModel, WantsTheUnitsThatFilesDoNotSay) {

@@ -29,13 +29,13 @@ TEST(Spread, ReadsTheShortestFire) {
     ASSERT_EQ(s.ignition.size(), 1U);
     EXPECT_EQ(s.ignition[0].points, (std::vector<std::array<double, 2>>{{10.0, 20.0}}));
     EXPECT_EQ(s.moisture_pct[spread::kHerb], 60.0);
-    EXPECT_EQ(s.frames_s, (std::vector{300.0, 600.0, 900.0}));
-    EXPECT_EQ(s.mean_over_s, 6.0);
+    EXPECT_EQ(s.frames.times_s, (std::vector{300.0, 600.0, 900.0}));
+    EXPECT_EQ(s.frames.mean_over_s, 6.0);
     EXPECT_EQ(s.rules.wind_height, spread::WindHeight::TwentyFeet);
     EXPECT_EQ(s.rules.curing, spread::Curing::BehavePlus);
     EXPECT_FALSE(s.rules.wind_limit);
     EXPECT_EQ(s.crown_ratio, 0.5);
-    EXPECT_EQ(s.coarse_burn_time_s, 300.0);
+    EXPECT_EQ(s.frames.coarse_burn_time_s, 300.0);
 }
 
 TEST(Spread, ReadsAllItsKeys) {
@@ -69,8 +69,8 @@ TEST(Spread, ReadsAllItsKeys) {
     EXPECT_EQ(s.rules.wind_height, spread::WindHeight::TenMetres);
     EXPECT_TRUE(s.rules.wind_limit);
     EXPECT_EQ(s.rules.curing, spread::Curing::Linear);
-    EXPECT_EQ(s.frames_s, (std::vector{10.0, 25.0}));
-    EXPECT_EQ(s.mean_over_s, 6.0);
+    EXPECT_EQ(s.frames.times_s, (std::vector{10.0, 25.0}));
+    EXPECT_EQ(s.frames.mean_over_s, 6.0);
 }
 
 TEST(Spread, SaysWhatIsWrong) {

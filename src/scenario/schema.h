@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace pyroscene::scenario {
+
+/// `inputs` and its sources as entries of the schema's $defs, each followed by a comma.
+std::string input_definitions();
+
+}  // namespace pyroscene::scenario
