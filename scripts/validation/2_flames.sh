@@ -30,11 +30,17 @@ awk -F, "$bed_m"' NR == 1 { print "length_m,instrument,slab" }
 pyroscene plot "$tables/fig_6_2_instrument.csv" --x length_m --y instrument,slab --points instrument --x-label "length of the fuel bed [m]" --y-label "radiance at 1.2 um [W m-2 sr-1 um-1]" -o "$images/fig_6_2_instrument.png"
 number instrument_2438_over_305 "$(awk -F, '$1 == "0.305" { a = $2 } $1 == "2.438" { print $2 / a }' "$tables/fig_6_2_instrument.csv")"
 
-# Figure 6.3: 20 cm of flame from 1.5 to 15 um; water at 2.7 and 6.5 um, carbon dioxide at 4.3 um stand out of the soot.
-{ echo wavelength_um; awk 'BEGIN { for (w = 1.5; w <= 15; w += 0.02) printf "%.4f\n", w }'; } >"$tables/ir_in.csv"
-flame --csv "$tables/ir_in.csv" --temperature_K 1153 --path_m 0.2 -o "$tables/ir.csv"
-awk -F, 'NR == 1 { print "wavelength_um,flame,black_body_1153_K"; next } { printf "%s,%s,%.6g\n", $1, $3, 1.191042972e8 / ($1 ^ 5 * (exp(14387.7688 / ($1 * 1153)) - 1)) }' "$tables/ir.csv" >"$tables/fig_6_3.csv"
-pyroscene plot "$tables/fig_6_3.csv" --x wavelength_um --y flame,black_body_1153_K --x-label "wavelength [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_6_3.png"
+# Figure 6.3: the infrared spectroradiometer before 20 cm of flame of 1100 K (scenarios/field_flame), beside the same slab by the
+# narrow-band formula without the 2 m of air between, and the blackbody of 1153 K that the thesis draws.
+pyroscene run scenarios/field_flame/gas_bands.yaml --acquisition sideways_2m -o "$out/gas_bands"
+spectrum=$out/gas_bands/sideways_2m/spectrum.csv
+awk -F, 'NR == 1 { print "wavelength_um"; next } { print $2 }' "$spectrum" >"$tables/ir_in.csv"
+flame --csv "$tables/ir_in.csv" --temperature_K 1100 --path_m 0.2 -o "$tables/ir.csv"
+paste -d, "$spectrum" "$tables/ir.csv" | awk -F, 'NR == 1 { print "wavelength_um,instrument,slab,black_body_1153_K"; next }
+    { printf "%s,%s,%s,%.6g\n", $2, $4, $8, 1.191042972e8 / ($2 ^ 5 * (exp(14387.7688 / ($2 * 1153)) - 1)) }' >"$tables/fig_6_3.csv"
+pyroscene plot "$tables/fig_6_3.csv" --x wavelength_um --y slab,instrument,black_body_1153_K --points instrument --x-label "wavelength [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_6_3.png"
+number instrument_over_slab_3.9um "$(awk -F, 'NR > 1 && $1 > 3.85 && $1 < 3.95 { a += $2; b += $3 } END { print a / b }' "$tables/fig_6_3.csv")"
+number instrument_over_slab_4.3um "$(awk -F, 'NR > 1 && $1 > 4.25 && $1 < 4.35 { a += $2; b += $3 } END { print a / b }' "$tables/fig_6_3.csv")"
 emissivity() { result flame-emissivity --wavelength_um "$1" --temperature_K 1153 --path_m 0.2 emissivity; }
 number emissivity_20cm_4.3um "$(emissivity 4.4)"
 number emissivity_20cm_gas_over_window "$(awk -v a="$(emissivity 4.4)" -v b="$(emissivity 3.9)" 'BEGIN { print a / b }')"

@@ -9,12 +9,12 @@
 #include "base/files.h"
 #include "cli/calc.h"
 #include "cli/flame_calculations.h"
+#include "cli/flame_emissivity_calculation.h"
 #include "cli/spread_calculation.h"
 #include "drawing/line_plot.h"
 #include "fire/scar.h"
 #include "gis/netcdf_input.h"
 #include "radiometry/atmosphere.h"
-#include "radiometry/flame_optics.h"
 #include "radiometry/planck.h"
 #include "sensors/sensor.h"
 
@@ -107,33 +107,6 @@ void plot_atmosphere(const Arguments& a, const std::string& file) {
     drawing::write_line_plots(file, plots);
 }
 
-/// A homogeneous flame before a cold black background, at one exact wavelength.
-std::vector<double> flame_emissivity(const Arguments& a) {
-    static const auto optics = radiometry::load_flame_optics(data_folder() / "optical");
-    const auto at_least = [&](const std::string& name, double least, bool included) {
-        const double value = a.number(name);
-        if (!(included ? value >= least : value > least) || !std::isfinite(value))
-            throw input_error("--" + name,
-                              fmt::format("found {}, expected {} {}", value, included ? "at least" : "more than", least));
-        return value;
-    };
-    FlameGas gas;
-    gas.soot_volume_fraction = at_least("soot_volume_fraction", 0.0, true);
-    gas.x_H2O = at_least("x_h2o", 0.0, true);
-    gas.x_CO2 = at_least("x_co2", 0.0, true);
-    gas.x_CO = at_least("x_co", 0.0, true);
-    gas.x_CH4 = at_least("x_ch4", 0.0, true);
-    gas.x_O2 = at_least("x_o2", 0.0, true);
-    if (gas.x_N2() < 0.0)
-        throw input_error("--x_h2o, --x_co2, --x_co, --x_ch4, --x_o2", "mole fractions sum to more than 1");
-    gas.potassium_ppm = at_least("potassium_ppm", 0.0, true);
-    gas.sodium_ppm = at_least("sodium_ppm", 0.0, true);
-    gas.pressure_Pa = radiometry::kAtmosphere_Pa * at_least("pressure_atm", 0.0, false);
-    radiometry::FlamePath path(optics, at_least("wavelength_um", 0.0, false));
-    path.add(at_least("path_m", 0.0, true), at_least("temperature_K", 0.0, false), gas);
-    return {-std::expm1(-path.depth()), path.emitted_radiance()};
-}
-
 std::vector<double> scar_temperature(const Arguments& a) {
     const fire::ScarModelRow* model = nullptr;
     std::vector<std::string> names;
@@ -207,22 +180,7 @@ const std::vector<Calculation>& calculations() {
           "diffuse_irradiance_W_m2_um", "thermal_irradiance_W_m2_um", "spherical_albedo"},
          atmosphere,
          plot_atmosphere},
-        {"flame-emissivity",
-         "emissivity and radiance of a homogeneous flame (soot, hot gas, K and Na lines) at one vacuum wavelength",
-         {{"wavelength_um", {}},
-          {"temperature_K", {}},
-          {"path_m", {}},
-          {"soot_volume_fraction", "2e-7"},
-          {"x_h2o", "0.14"},
-          {"x_co2", "0.10"},
-          {"x_co", "0.02"},
-          {"x_ch4", "0"},
-          {"x_o2", "0.03"},
-          {"potassium_ppm", "0"},
-          {"sodium_ppm", "0"},
-          {"pressure_atm", "1"}},
-         {"emissivity", "radiance_W_m2_sr_um"},
-         flame_emissivity},
+        flame_emissivity_calculation(),
         flame_height_calculation(),
         flame_tilt_calculation(),
         thesis_potassium_calculation(),

@@ -89,6 +89,20 @@ TEST(Calc, FlameEmissivity) {
     EXPECT_NE(cold.output.find("temperature_K"), std::string::npos) << cold.output;
 }
 
+// --plot needs no wavelength and draws emissivity above radiance.
+TEST(Calc, FlameEmissivityPlotsItsSpectrum) {
+    const ScratchFolder scratch;
+    const auto file = (scratch / "flame.png").string();
+    const auto drawn =
+        pyroscene_cli("calc flame-emissivity --temperature_K 1100 --path_m 1 --potassium_ppm 1 --plot " + file);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+    EXPECT_TRUE(drawn.output.empty()) << drawn.output;
+    const auto bytes = file_bytes(file);
+    ASSERT_EQ(bytes.substr(1, 3), "PNG");
+    EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\3\x84\0\0\3\xC0", 8));  // 900 x 960 pixels: two diagrams
+    EXPECT_EQ(pyroscene_cli("calc flame-emissivity --temperature_K 1100 --plot " + file).exit_code, 3);
+}
+
 TEST(Sensors, ListAndDetails) {
     const auto list = pyroscene_cli("sensors");
     EXPECT_EQ(list.exit_code, 0);

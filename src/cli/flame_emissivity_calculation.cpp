@@ -1,0 +1,125 @@
+#include "cli/flame_emissivity_calculation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "pipeline/line_plot.h"
+#include "radiometry/flame_optics.h"
+#include "radiometry/planck.h"
+
+namespace pyroscene::cli {
+namespace {
+
+const radiometry::FlameOptics& optics() {
+    static const auto loaded = radiometry::load_flame_optics(data_folder() / "optical");
+    return loaded;
+}
+
+double at_least(const Arguments& a, const std::string& name, double least, bool included = true) {
+    const double value = a.number(name);
+    if (!(included ? value >= least : value > least) || !std::isfinite(value))
+        throw input_error("--" + name,
+                          fmt::format("found {}, expected {} {}", value, included ? "at least" : "more than", least));
+    return value;
+}
+
+/// Of one mixture and temperature, before a cold black background.
+struct UniformFlame {
+    double path_m = 0.0, temperature_K = 0.0;
+    FlameGas gas;
+    [[nodiscard]] radiometry::FlamePath at(double wavelength_um) const {
+        radiometry::FlamePath path(optics(), wavelength_um);
+        path.add(path_m, temperature_K, gas);
+        return path;
+    }
+};
+
+UniformFlame uniform_flame(const Arguments& a) {
+    UniformFlame flame{at_least(a, "path_m", 0.0), at_least(a, "temperature_K", 0.0, false), {}};
+    FlameGas& gas = flame.gas;
+    gas.soot_volume_fraction = at_least(a, "soot_volume_fraction", 0.0);
+    gas.x_H2O = at_least(a, "x_h2o", 0.0);
+    gas.x_CO2 = at_least(a, "x_co2", 0.0);
+    gas.x_CO = at_least(a, "x_co", 0.0);
+    gas.x_CH4 = at_least(a, "x_ch4", 0.0);
+    gas.x_O2 = at_least(a, "x_o2", 0.0);
+    if (gas.x_N2() < 0.0)
+        throw input_error("--x_h2o, --x_co2, --x_co, --x_ch4, --x_o2", "mole fractions sum to more than 1");
+    gas.potassium_ppm = at_least(a, "potassium_ppm", 0.0);
+    gas.sodium_ppm = at_least(a, "sodium_ppm", 0.0);
+    gas.pressure_Pa = radiometry::kAtmosphere_Pa * at_least(a, "pressure_atm", 0.0, false);
+    return flame;
+}
+
+std::vector<double> compute(const Arguments& a) {
+    const auto path = uniform_flame(a).at(at_least(a, "wavelength_um", 0.0, false));
+    return {-std::expm1(-path.depth()), path.emitted_radiance()};
+}
+
+/// 0.35 to 15 um in steps of 0.1 %, and finer where lines of potassium and sodium stand.
+std::vector<double> plot_wavelengths_um() {
+    std::vector<double> lambda_um;
+    for (double w = 0.35; w <= 15.0; w *= 1.001) lambda_um.push_back(w);
+    for (const auto* lines : {&optics().alkali.potassium, &optics().alkali.sodium}) {
+        double lower = lines->front().wavelength_um, upper = lower;
+        for (const auto& line : *lines) {
+            lower = std::min(lower, line.wavelength_um);
+            upper = std::max(upper, line.wavelength_um);
+        }
+        const auto fine = radiometry::doublet_wavelengths_um(*lines, lower - radiometry::kAlkaliReach_um,
+                                                             upper + radiometry::kAlkaliReach_um);
+        lambda_um.insert(lambda_um.end(), fine.begin(), fine.end());
+    }
+    std::sort(lambda_um.begin(), lambda_um.end());
+    return lambda_um;
+}
+
+void plot(const Arguments& a, const std::string& file) {
+    const auto flame = uniform_flame(a);
+    const auto lambda_um = plot_wavelengths_um();
+    std::vector<double> emissivity, radiance, black;
+    for (const double w : lambda_um) {
+        const auto path = flame.at(w);
+        emissivity.push_back(-std::expm1(-path.depth()));
+        radiance.push_back(path.emitted_radiance());
+        black.push_back(radiometry::planck_radiance(w, flame.temperature_K));
+    }
+    pipeline::LinePlot upper, lower;
+    upper.title =
+        fmt::format("{} m of flame at {} K, soot {}, H2O {}, CO2 {}, CO {}", a.text("path_m"), a.text("temperature_K"),
+                    a.text("soot_volume_fraction"), a.text("x_h2o"), a.text("x_co2"), a.text("x_co"));
+    upper.x = lower.x = {"wavelength / um", true, {}, {}};
+    upper.y = {"emissivity", false, 0.0, 1.0};
+    upper.series = {{"", lambda_um, emissivity}};
+    lower.y = {"W m-2 sr-1 um-1", true, 1e-4 * *std::max_element(black.begin(), black.end()), {}};
+    lower.series = {{"flame", lambda_um, radiance}, {"black body", lambda_um, black}};
+    pipeline::write_line_plots(file, std::vector{upper, lower});
+}
+
+}  // namespace
+
+Calculation flame_emissivity_calculation() {
+    return {"flame-emissivity",
+            "emissivity and radiance of a homogeneous flame (soot, hot gas, K and Na lines) at one vacuum wavelength",
+            {{"wavelength_um", {}},
+             {"temperature_K", {}},
+             {"path_m", {}},
+             {"soot_volume_fraction", "2e-7"},
+             {"x_h2o", "0.14"},
+             {"x_co2", "0.10"},
+             {"x_co", "0.02"},
+             {"x_ch4", "0"},
+             {"x_o2", "0.03"},
+             {"potassium_ppm", "0"},
+             {"sodium_ppm", "0"},
+             {"pressure_atm", "1"}},
+            {"emissivity", "radiance_W_m2_sr_um"},
+            compute,
+            plot};
+}
+
+}  // namespace pyroscene::cli
