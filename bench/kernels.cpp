@@ -131,7 +131,8 @@ void smoke(benchmark::State& state) {
     piece.scattered_out = scattered.data();
     piece.albedo = kind == 0 ? nullptr : albedo.data();
     piece.asymmetry = asymmetry.data();
-    piece.sun = piece.half_sky = piece.half_ground = piece.flame_radiance = light.data();
+    piece.sun = piece.sky = piece.ground = piece.ground_lit = piece.flame_radiance = light.data();
+    piece.beam_k = piece.flame_k = k.data();
     piece.flame_share_m2 = share.data();
     piece.sun_column = piece.column_above = piece.column_below = piece.flame_column = 1.0F;
     piece.sun_column_change = 0.02F;

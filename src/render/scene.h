@@ -40,7 +40,7 @@ enum class Term {
     PathThermal,
     Adjacency,
     SmokeEmission,   ///< only in scenes with a plume, like the next
-    SmokeScattering  ///< sun, sky, ground and flame light scattered once by smoke
+    SmokeScattering  ///< sun, sky, ground and flame light scattered by smoke
 };
 inline constexpr int kTermCount = 11;
 inline constexpr int kSmokeTermCount = 2;  ///< the last ones
@@ -56,8 +56,9 @@ struct SceneOptics {
     std::vector<float> smoke_extinction_per_m;  ///< [lambda] of plume voxels of fill 1; empty without a plume
     /// [lambda] scattered / extinct, and Henyey-Greenstein's g; both empty: the plume only absorbs.
     std::vector<float> smoke_albedo, smoke_asymmetry;
-    FlameGas gas;       ///< what the flame is made of
-    bool grey = false;  ///< absorption equal at all wavelengths: one exp per step
+    bool smoke_multiple_scattering = true;  ///< false: light is scattered by smoke once only
+    FlameGas gas;                           ///< what the flame is made of
+    bool grey = false;                      ///< absorption equal at all wavelengths: one exp per step
     /// Hot gas and alkali lines beside the soot, of one mixture for all flame. Without tables, or where they say nothing at
     /// these wavelengths, flame_absorption_per_m is all that absorbs.
     std::shared_ptr<const radiometry::FlameOptics> flame_tables;

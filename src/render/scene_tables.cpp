@@ -262,11 +262,10 @@ void SceneTables::set_slopes(const RenderScene& scene) {
     };
     slopes_solar = reflected(solar);
     slopes_thermal = reflected(thermal);
-    for (std::size_t l = 0; l < solar.size(); ++l) solar[l] += thermal[l];
-    if (has_plume(scene)) set_smoke(scene, solar);
+    if (has_plume(scene)) set_smoke(scene, solar, thermal);
 }
 
-void SceneTables::set_smoke(const RenderScene& scene, std::span<const double> ambient_exitance) {
+void SceneTables::set_smoke(const RenderScene& scene, std::span<const double> reflected, std::span<const double> emitted) {
     const SceneOptics& optics = *scene.optics;
     const radiometry::ViewAtmosphere& air = *scene.atmosphere;
     const auto size = static_cast<std::size_t>(stride);
@@ -275,18 +274,34 @@ void SceneTables::set_smoke(const RenderScene& scene, std::span<const double> am
     smoke.extinction_per_m.resize(size, smoke.extinction_per_m.back());
     smoke.sky = air.diffuse_irradiance_W_m2_um;
     smoke.thermal_sky = air.thermal_irradiance_W_m2_um;
+    smoke.sun.assign(size, 0.0F);
+    smoke.sky_radiance = smoke.ground_radiance = smoke.ground_lit = smoke.sun;
     for (std::vector<float>* row : {&smoke.sky, &smoke.thermal_sky}) row->resize(size, 0.0F);
-    if (!smoke.scatters) return;
+    for (std::size_t l = 0; l < emitted.size(); ++l) {
+        if (has_sun) smoke.sun[l] = air.direct_normal_irradiance_W_m2_um[l];
+        smoke.sky_radiance[l] = (smoke.sky[l] + smoke.thermal_sky[l]) / static_cast<float>(kPi);
+        smoke.ground_radiance[l] = static_cast<float>(emitted[l] / kPi);
+        smoke.ground_lit[l] = static_cast<float>(reflected[l] / kPi);
+    }
+    if (smoke.scatters) set_smoke_scattering(scene);
+}
+
+void SceneTables::set_smoke_scattering(const RenderScene& scene) {
+    const SceneOptics& optics = *scene.optics;
     smoke.albedo = optics.smoke_albedo;
     smoke.asymmetry = optics.smoke_asymmetry;
-    smoke.sun.assign(size, 0.0F);
-    smoke.half_sky = smoke.half_ground = smoke.sun;
-    for (std::vector<float>* row : {&smoke.albedo, &smoke.asymmetry}) row->resize(size, 0.0F);
-    for (std::size_t l = 0; l < ambient_exitance.size(); ++l) {
-        if (has_sun) smoke.sun[l] = air.direct_normal_irradiance_W_m2_um[l];
-        smoke.half_sky[l] =
-            (air.diffuse_irradiance_W_m2_um[l] + air.thermal_irradiance_W_m2_um[l]) / (2.0F * static_cast<float>(kPi));
-        smoke.half_ground[l] = static_cast<float>(ambient_exitance[l] / (2.0 * kPi));
+    for (std::vector<float>* row : {&smoke.albedo, &smoke.asymmetry}) row->resize(static_cast<std::size_t>(stride), 0.0F);
+    smoke.beam_per_m = smoke.flame_per_m = smoke.extinction_per_m;
+    smoke.flame_spread_per_m.assign(smoke.beam_per_m.size(), 0.0F);
+    if (!optics.smoke_multiple_scattering) return;
+    smoke.diffusion = make_smoke_diffusion(optics.lambda_um, optics.smoke_extinction_per_m, optics.smoke_albedo,
+                                           optics.smoke_asymmetry, has_sun ? scene.to_sun.z : 0.0, stride);
+    for (std::size_t l = 0; l < optics.smoke_albedo.size(); ++l) {
+        const float k = smoke.extinction_per_m[l], w = smoke.albedo[l], g = smoke.asymmetry[l];
+        smoke.beam_per_m[l] = k * (1.0F - w * g * g);
+        // Through a layer light decays by diffusion and, where nothing absorbs, passes as 1 / (1 + 3/4 (1 - g) t).
+        smoke.flame_per_m[l] = k * std::min(1.0F, std::sqrt(3.0F * (1.0F - w) * (1.0F - w * g)));
+        smoke.flame_spread_per_m[l] = 0.75F * k * w * (1.0F - g);
     }
 }
 

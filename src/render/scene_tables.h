@@ -8,6 +8,7 @@
 #include "radiometry/flame_table.h"
 #include "render/planck_rows.h"
 #include "render/scene.h"
+#include "render/smoke_diffusion.h"
 #include "render/spectral_kernels.h"
 
 namespace pyroscene::render {
@@ -21,7 +22,12 @@ struct SmokeSpectra {
     bool scatters = false;
     std::vector<float> extinction_per_m, albedo, asymmetry;
     std::vector<float> sun, sky, thermal_sky;  ///< irradiances: direct normal, horizontal
-    std::vector<float> half_sky, half_ground;  ///< half the radiance of the sky, and of the scene's mean ambient ground
+    std::vector<float> sky_radiance;           ///< mean over the open sky
+    std::vector<float> ground_radiance,
+        ground_lit;                 ///< of the scene's mean ambient ground: emitted and thermal sky; sunlight
+    SmokeDiffusion diffusion;       ///< empty: light is scattered once
+    std::vector<float> beam_per_m;  ///< what dims the sun inside smoke: extinction, or k' of the diffusion
+    std::vector<float> flame_per_m, flame_spread_per_m;  ///< flames' light passes exp(-k c) / (1 + spread c) of a column c
 };
 
 /// The sky as rays see it that end in it, on nodes of the cosine of its zenith angle. Sunlit sky is the same all over; the thermal
@@ -79,7 +85,8 @@ struct SceneTables {
 private:
     void set_slopes(const RenderScene& scene);
     void set_open_sky(const RenderScene& scene);
-    void set_smoke(const RenderScene& scene, std::span<const double> ambient_exitance);
+    void set_smoke(const RenderScene& scene, std::span<const double> reflected, std::span<const double> emitted);
+    void set_smoke_scattering(const RenderScene& scene);
 };
 
 /// Checks that the parts of a scene fit together; throws an input error that names the part.

@@ -19,6 +19,7 @@ constexpr int kEdge = fire::FlameField::kBrickEdge;
 SmokeLight::SmokeLight(const RenderScene& scene, const SceneTables& tables, const FlameColumns& plume)
     : scene_(&scene),
       plume_(&plume),
+      diffuse_(!tables.smoke.diffusion.empty()),
       flame_share_m2_(static_cast<std::size_t>(tables.stride), 0.0F),
       flame_radiance_(flame_share_m2_.size(), 0.0F) {
     if (!tables.smoke.scatters) return;
@@ -118,6 +119,7 @@ void SmokeLight::fill_nodes() {
 
 void SmokeLight::fill_node(Vec3 at_m, Node& node) const {
     node[ToSun] = static_cast<float>(smoke_to_sun(*plume_, at_m, scene_->to_sun));
+    if (diffuse_) node[PastSun] = static_cast<float>(smoke_past_sun(*plume_, at_m, scene_->to_sun));
     double sum = 0.0;
     Vec3 bundle, middle;
     for (const Source& source : sources_) {

@@ -17,8 +17,8 @@ namespace pyroscene::render {
 /// the mean chord 4 V / A (Cauchy), isotropic, all with one spectrum.
 class SmokeLight {
 public:
-    /// What is known at a node and interpolated between nodes.
-    enum Quantity { ToSun, Above, Below, FlamePerM2, ToFlame, FlameX, FlameY, FlameZ, kQuantities };
+    /// What is known at a node (PastSun: on the sun's rays behind it; only for light scattered more than once) and interpolated between nodes.
+    enum Quantity { ToSun, PastSun, Above, Below, FlamePerM2, ToFlame, FlameX, FlameY, FlameZ, kQuantities };
     using Node = std::array<float, kQuantities>;
 
     /// \param plume  columns of scene.plume; must outlive this
@@ -49,6 +49,7 @@ private:
 
     const RenderScene* scene_;
     const FlameColumns* plume_;
+    bool diffuse_ = false;
     Vec3 corner_m_;
     int nx_ = 0, ny_ = 0, nz_ = 0;
     std::vector<Node> nodes_;  ///< [nz + 1][ny][nx]

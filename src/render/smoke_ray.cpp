@@ -33,14 +33,28 @@ void SmokeRay::light(SmokePiece& piece, double from, double to) const {
     piece.albedo = smoke.albedo.data();
     piece.asymmetry = smoke.asymmetry.data();
     piece.sun = sun_.data();
-    piece.half_sky = smoke.half_sky.data();
-    piece.half_ground = smoke.half_ground.data();
+    piece.beam_k = smoke.beam_per_m.data();
+    piece.sky = smoke.sky_radiance.data();
+    piece.ground = smoke.ground_radiance.data();
+    piece.ground_lit = smoke.ground_lit.data();
     piece.flame_share_m2 = light_->flame_share_m2();
     piece.flame_radiance = light_->flame_radiance();
     piece.sun_column = near[SmokeLight::ToSun];
     piece.sun_column_change = far[SmokeLight::ToSun] - near[SmokeLight::ToSun];
-    piece.column_above = kMeanSlant * middle(SmokeLight::Above);
-    piece.column_below = kMeanSlant * middle(SmokeLight::Below);
+    if (smoke.diffusion.empty()) {
+        piece.column_above = kMeanSlant * middle(SmokeLight::Above);
+        piece.column_below = kMeanSlant * middle(SmokeLight::Below);
+    } else {
+        const auto range = [&](SmokeLight::Quantity q) { return DiffuseColumns::Range{near[q], far[q] - near[q]}; };
+        kernels_->diffuse_source(smoke.diffusion.nodes,
+                                 {range(SmokeLight::Above), range(SmokeLight::Below), range(SmokeLight::ToSun),
+                                  range(SmokeLight::PastSun), piece.smoke.depth, static_cast<float>(-direction_.z)},
+                                 piece.diffuse);
+        piece.diffusion_weight = smoke.diffusion.weight.data();
+        piece.irradiance = smoke.sun.data();
+    }
+    piece.flame_k = smoke.flame_per_m.data();
+    piece.flame_spread = smoke.flame_spread_per_m.data();
     piece.flame_per_m2 = middle(SmokeLight::FlamePerM2);
     if (!(piece.flame_per_m2 > 0.0F)) return;
     piece.flame_column = middle(SmokeLight::ToFlame);

@@ -13,7 +13,53 @@ namespace {
 
 constexpr double kFarthestSun_m = 1e5;
 
-double top_m(const FlameColumns& plume) { return plume.grid().corner_m.z + plume.height_range()[1] * plume.grid().dz_m; }
+double height_m(const FlameColumns& plume, std::size_t end) {
+    return plume.grid().corner_m.z + plume.height_range()[end] * plume.grid().dz_m;
+}
+double top_m(const FlameColumns& plume) { return height_m(plume, 1); }
+
+/// Columns of a plane layer as seen from the ground.
+struct Shade {
+    std::vector<float> sky, ground, sun;  ///< transmittance, reflectance, irradiance of all sunlight per irradiance
+};
+
+Shade shade_of(const SceneTables& tables, const SmokeShade& shade) {
+    const SpectralKernels& kernels = spectral_kernels();
+    const SmokeDiffusion& diffusion = tables.smoke.diffusion;
+    DiffuseShade at_nodes{};
+    kernels.diffuse_shade(diffusion.nodes, shade.above, shade.to_sun, at_nodes);
+    const auto spread = [&](const float* nodes) {
+        std::vector<float> out(static_cast<std::size_t>(tables.stride), 0.0F);
+        kernels.add_rows(tables.stride, diffusion.weight.data(), tables.stride, DiffusionNodes::kCount, nodes, out.data());
+        return out;
+    };
+    return {spread(at_nodes.sky), spread(at_nodes.ground), spread(at_nodes.sun)};
+}
+
+void dim_sky_diffusely(const SceneTables& tables, const SmokeShade& shade, const float* sky, bool glows, float* out) {
+    const SmokeSpectra& smoke = tables.smoke;
+    const auto pi = static_cast<float>(kPi);
+    const Shade layer = shade_of(tables, shade);
+    const float mu0 = smoke.diffusion.nodes.sun_cosine;
+    for (std::size_t l = 0; l < layer.sky.size(); ++l) {
+        if (glows) {
+            out[l] = layer.sky[l] * sky[l] + layer.ground[l] * pi * smoke.ground_radiance[l];
+            continue;
+        }
+        const float straight = mu0 * std::exp(-smoke.extinction_per_m[l] * shade.to_sun);
+        const float lit = mu0 > 0.0F ? layer.sun[l] / mu0 : 0.0F;
+        out[l] = layer.sky[l] * sky[l] + layer.ground[l] * lit * pi * smoke.ground_lit[l] +
+                 std::max(layer.sun[l] - straight, 0.0F) * smoke.sun[l];
+    }
+    if (!glows) return;
+    const PlanckRows::Lookup warm = tables.planck.at(shade.temperature_K);
+    for (std::size_t l = 0; l < layer.sky.size(); ++l) {
+        float B = 0.0F;
+        for (int j = 0; j < warm.count; ++j)
+            B += warm.weight[static_cast<std::size_t>(j)] * tables.planck.row(warm.row + j)[l];
+        out[l] += (1.0F - layer.sky[l] - layer.ground[l]) * pi * B;
+    }
+}
 
 }  // namespace
 
@@ -30,6 +76,12 @@ double smoke_to_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun) {
     const double climb_m = top_m(plume) - from_m.z;
     if (!(to_sun.z > 0.0 && climb_m > 0.0)) return 0.0;
     return smoke_between(plume, from_m, from_m + std::min(climb_m / to_sun.z, kFarthestSun_m) * to_sun);
+}
+
+double smoke_past_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun) {
+    const double drop_m = from_m.z - height_m(plume, 0);
+    if (!(to_sun.z > 0.0 && drop_m > 0.0)) return 0.0;
+    return smoke_between(plume, from_m, from_m - std::min(drop_m / to_sun.z, kFarthestSun_m) * to_sun);
 }
 
 SmokeShadow::SmokeShadow(const RenderScene& scene)
@@ -76,6 +128,7 @@ SmokeShade SmokeShadow::at(Vec3 ground_m) const noexcept {
 }
 
 void dim_sky(const SceneTables& tables, const SmokeShade& shade, const float* sky, bool glows, float* out) {
+    if (!tables.smoke.diffusion.empty()) return dim_sky_diffusely(tables, shade, sky, glows, out);
     const SpectralKernels& kernels = spectral_kernels();
     kernels.transmittance(tables.stride, tables.smoke.extinction_per_m.data(), kMeanSlant * shade.above, out);
     if (!glows) return kernels.product(tables.stride, 1.0F, sky, out, out);

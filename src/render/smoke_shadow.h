@@ -8,9 +8,10 @@
 
 namespace pyroscene::render {
 
-/// Fill x length of smoke between two points, and from a point towards the sun (0 at night).
+/// Fill x length of smoke between two points, from a point towards the sun and from it away from the sun (0 at night).
 double smoke_between(const FlameColumns& plume, Vec3 from_m, Vec3 to_m);
 double smoke_to_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun);
+double smoke_past_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun);
 
 /// Smoke between a place on the ground and the sun, and straight above it: fill x length, and the mean temperature above.
 struct SmokeShade {
@@ -31,7 +32,9 @@ private:
     std::vector<SmokeShade> cells_;
 };
 
-/// Irradiance of a sky through smoke:  t E + (1 - t) pi B(T_smoke),  t = exp(-1.66 k column);  B only if `glows`.
+/// Irradiance of a sky through smoke:  t E + (1 - t) pi B(T_smoke),  t = exp(-1.66 k column);  B only if `glows`. Of light
+/// scattered more than once  t E + r M + (1 - t - r) pi B  with the layer's own t and r and the ambient ground's exitance M, and
+/// to a sky that does not glow belongs what smoke scatters down of the sun.
 void dim_sky(const SceneTables& tables, const SmokeShade& shade, const float* sky, bool glows, float* out);
 
 }  // namespace pyroscene::render

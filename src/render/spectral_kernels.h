@@ -8,6 +8,10 @@ namespace pyroscene::render {
 struct PlaneTrace;
 struct MixturePiece;
 struct SmokePiece;
+struct DiffusionNodes;
+struct DiffuseColumns;
+struct DiffuseSource;
+struct DiffuseShade;
 
 /// One of the constituents of a piece of ray: absorption spectrum, fill x length, rows and weights of its Planck spectrum.
 struct Emitter {
@@ -30,6 +34,9 @@ struct SpectralKernels {
                  float scale, float* tau, float* flame);
     /// One homogeneous piece with smoke and perhaps flame: see SmokePiece.
     void (*emit_smoke)(const SmokePiece& piece);
+    /// Light scattered more than once: what a piece of smoke sends on, and what reaches the ground below (smoke_diffusion.h).
+    void (*diffuse_source)(const DiffusionNodes& nodes, const DiffuseColumns& columns, DiffuseSource& out);
+    void (*diffuse_shade)(const DiffusionNodes& nodes, float above, float to_sun, DiffuseShade& out);
     /// out = irradiance times the Henyey-Greenstein phase function [1/sr] at one cosine of the scattering angle.
     void (*phase_product)(int n, const float* asymmetry, float cosine, const float* irradiance, float* out);
     /// One homogeneous piece of flame with gas: see MixturePiece.

@@ -6,8 +6,7 @@
 #include <cstdio>
 
 #include "base/constants.h"
-#include "base/random.h"
-#include "physics/test_scene.h"
+#include "physics/smoke_layer.h"
 #include "radiometry/planck.h"
 #include "radiometry/smoke.h"
 
@@ -18,35 +17,16 @@ using render::Term;
 
 const std::vector<double> kLambda_um{0.55, 0.87, 2.2, 4.0, 11.0};
 
-struct Smoke {
-    double extinction_per_m, albedo, asymmetry;
-};
-
-/// A layer of smoke from 100 to 300 m over everything, cut into `slices` voxels; black ground at 300 K unless told.
+/// Over black ground at 300 K unless told.
 TestScene layer(const Smoke& smoke, int slices, double smoke_K = 300.0, double ground_K = 300.0, double reflectance = 0.0) {
-    TestScene scene({.ground_K = ground_K, .lambda_um = kLambda_um, .reflectance = reflectance});
-    const fire::VoxelGrid grid{
-        .corner_m = {-5e4, -5e4, 100.0}, .nx = 1, .ny = 1, .dx_m = 1e5, .dy_m = 1e5, .dz_m = 200.0 / slices};
-    scene.plume = fire::make_flame_field(grid, box_of_voxels(1, 1, slices, smoke_K));
-    const auto n = kLambda_um.size();
-    scene.optics.smoke_extinction_per_m.assign(n, static_cast<float>(smoke.extinction_per_m));
-    scene.optics.smoke_albedo.assign(n, static_cast<float>(smoke.albedo));
-    scene.optics.smoke_asymmetry.assign(n, static_cast<float>(smoke.asymmetry));
+    return smoke_layer({smoke, slices, smoke_K, ground_K, reflectance}, kLambda_um);
+}
+
+/// The same with light scattered once only.
+TestScene layer_once(const Smoke& smoke, int slices, double reflectance = 0.0) {
+    TestScene scene = layer(smoke, slices, 300.0, 300.0, reflectance);
+    scene.optics.smoke_multiple_scattering = false;
     return scene;
-}
-
-Vec3 direction(double zenith_rad, double azimuth_rad) {
-    return {std::sin(zenith_rad) * std::sin(azimuth_rad), std::sin(zenith_rad) * std::cos(azimuth_rad),
-            std::cos(zenith_rad)};
-}
-
-render::SceneRay ray_from(double zenith_rad, double azimuth_rad) {
-    const Vec3 target{80.0, 80.0, 0.0}, up = direction(zenith_rad, azimuth_rad);
-    return {target + (1000.0 / up.z) * up, target - (1.0 / up.z) * up};
-}
-
-float term(const render::RadianceImage& image, Term which, std::size_t band) {
-    return image.terms[static_cast<std::size_t>(which)][band];
 }
 
 // Chandrasekhar's first order for a slab of optical depth t, sun at mu0, view at mu, scattering angle between them:
@@ -59,7 +39,7 @@ TEST(Smoke, SlabScattersTheSunOnceAsInClosedForm) {
                 for (const double sun_deg : {0.0, 40.0, 70.0})
                     for (const double view_deg : {0.0, 35.0}) {
                         const Smoke smoke{depth / 200.0, 0.9, g};
-                        TestScene scene = layer(smoke, slices);
+                        TestScene scene = layer_once(smoke, slices);
                         scene.to_sun = direction(sun_deg * kDegree_rad, 0.7);
                         scene.atmosphere.direct_normal_irradiance_W_m2_um.assign(kLambda_um.size(),
                                                                                  static_cast<float>(irradiance));
@@ -82,7 +62,7 @@ TEST(Smoke, ForwardScatteringHasItsLimit) {
     // A ray that runs down along the sun's rays' mirror is not possible from above; the limit a + k dS = 0 needs a ray that
     // climbs towards the sun, so march one upwards from under the layer.
     const Smoke smoke{0.004, 0.8, 0.5};
-    TestScene scene = layer(smoke, 3);
+    TestScene scene = layer_once(smoke, 3);
     scene.set_heights([](double, double y) { return y > 130.0 ? 500.0 : 0.0; });
     scene.to_sun = direction(60.0 * kDegree_rad, 0.0);
     scene.atmosphere.direct_normal_irradiance_W_m2_um.assign(kLambda_um.size(), 1000.0F);
@@ -102,8 +82,9 @@ TEST(Smoke, FurnaceStaysBlackThroughScatteringSmoke) {
     for (const double T_K : {300.0, 900.0})
         for (const double depth : {0.1, 2.0, 30.0})
             for (const double albedo : {0.5, 1.0})
-                for (const double reflectance : {0.0, 0.4}) {
+                for (const double reflectance : {0.0, 0.2, 0.4}) {
                     TestScene scene = layer({depth / 200.0, albedo, 0.6}, 4, T_K, T_K, reflectance);
+                    scene.optics.smoke_multiple_scattering = reflectance != 0.2;
                     scene.set_sky(T_K);
                     const fire::VoxelGrid grid{
                         .corner_m = {40.0, 40.0, 0.0}, .nx = 8, .ny = 8, .dx_m = 10.0, .dy_m = 10.0, .dz_m = 5.0};
@@ -145,7 +126,7 @@ TEST(Smoke, ScatteredAndAbsorbedMakeWhatIsExtinguished) {
 // Direct sun on the ground below: E mu0 exp(-t / mu0) r / pi, then through the layer to the sensor; the sky by exp(-1.66 t).
 TEST(Smoke, DimsTheSunAndTheSkyOnTheGround) {
     const double depth = 0.8, reflectance = 0.3;
-    TestScene scene = layer({depth / 200.0, 0.9, 0.6}, 3, 300.0, 300.0, reflectance);
+    TestScene scene = layer_once({depth / 200.0, 0.9, 0.6}, 3, reflectance);
     scene.to_sun = direction(50.0 * kDegree_rad, 4.0);
     scene.atmosphere.direct_normal_irradiance_W_m2_um.assign(kLambda_um.size(), 1200.0F);
     scene.atmosphere.diffuse_irradiance_W_m2_um.assign(kLambda_um.size(), 200.0F);
@@ -157,48 +138,12 @@ TEST(Smoke, DimsTheSunAndTheSkyOnTheGround) {
                 1e-5);
 }
 
-struct Orders {
-    double first = 0.0, all = 0.0;
-};
-
-/// Nadir radiance of a slab in sunlight per irradiance, by Monte Carlo with a contribution from every collision (black ground);
-/// the first collision is forced into the slab.
-Orders orders_of_scattering(double depth, double albedo, double g, double mu0) {
-    constexpr std::uint64_t kPhotons = 100000;
-    const RandomKey key{7, 0, 0};
-    const double hit = -std::expm1(-depth / mu0);
-    Orders sum;
-    for (std::uint64_t n = 0; n < kPhotons; ++n) {
-        Vec3 along{std::sqrt(1.0 - mu0 * mu0), 0.0, -mu0};
-        double t = -mu0 * std::log(1.0 - hit * uniform01(key, n, 3)), weight = hit;  // optical depth below the top
-        for (std::uint32_t event = 0; event < 400 && weight > 1e-4; ++event) {
-            const auto random = [&](std::uint32_t i) { return uniform01(key, n, 4 * event + i); };
-            if (event > 0) t += along.z * std::log(1.0 - random(0));
-            if (t < 0.0 || t > depth) break;
-            weight *= albedo;
-            const double seen = weight * radiometry::henyey_greenstein_per_sr(along.z, g) * std::exp(-t);
-            sum.all += seen;
-            if (event == 0) sum.first += seen;
-            // A new direction after Henyey and Greenstein.
-            const double s = (1.0 - g * g) / (1.0 - g + 2.0 * g * random(1)), cosine = (1.0 + g * g - s * s) / (2.0 * g);
-            const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), phi = 2.0 * kPi * random(2);
-            const Vec3 side =
-                normalized(std::abs(along.z) < 0.9 ? Vec3{-along.y, along.x, 0.0} : Vec3{0.0, -along.z, along.y});
-            const Vec3 other{along.y * side.z - along.z * side.y, along.z * side.x - along.x * side.z,
-                             along.x * side.y - along.y * side.x};
-            along = cosine * along + sine * std::cos(phi) * side + sine * std::sin(phi) * other;
-        }
-    }
-    const double per_photon = mu0 / static_cast<double>(kPhotons);
-    return {per_photon * sum.first, per_photon * sum.all};
-}
-
 // What single scattering leaves out (docs/physics-render.md has the table): little when thin, most of the light when thick.
 TEST(Smoke, SingleScatteringIsTheThinLimitOfAllOrders) {
     const double mu0 = std::cos(40.0 * kDegree_rad), albedo = 0.9, g = 0.6;
     double before = 1.0;
     for (const double depth : {0.002, 0.1, 0.3, 1.0, 3.0}) {
-        TestScene scene = layer({depth / 200.0, albedo, g}, 2);
+        TestScene scene = layer_once({depth / 200.0, albedo, g}, 2);
         scene.to_sun = direction(40.0 * kDegree_rad, 0.7);
         scene.atmosphere.direct_normal_irradiance_W_m2_um.assign(kLambda_um.size(), 1000.0F);
         const auto image = render::render_image(scene.scene(), nullptr, rays_request({ray_from(0.0, 0.0)}));
