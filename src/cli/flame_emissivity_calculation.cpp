@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "pipeline/line_plot.h"
+#include "drawing/line_plot.h"
 #include "radiometry/flame_optics.h"
 #include "radiometry/planck.h"
 
@@ -88,7 +88,7 @@ void plot(const Arguments& a, const std::string& file) {
         radiance.push_back(path.emitted_radiance());
         black.push_back(radiometry::planck_radiance(w, flame.temperature_K));
     }
-    pipeline::LinePlot upper, lower;
+    drawing::LinePlot upper, lower;
     upper.title =
         fmt::format("{} m of flame at {} K, soot {}, H2O {}, CO2 {}, CO {}", a.text("path_m"), a.text("temperature_K"),
                     a.text("soot_volume_fraction"), a.text("x_h2o"), a.text("x_co2"), a.text("x_co"));
@@ -97,7 +97,7 @@ void plot(const Arguments& a, const std::string& file) {
     upper.series = {{"", lambda_um, emissivity}};
     lower.y = {"W m-2 sr-1 um-1", true, 1e-4 * *std::max_element(black.begin(), black.end()), {}};
     lower.series = {{"flame", lambda_um, radiance}, {"black body", lambda_um, black}};
-    pipeline::write_line_plots(file, std::vector{upper, lower});
+    drawing::write_line_plots(file, std::vector{upper, lower});
 }
 
 }  // namespace

@@ -128,10 +128,10 @@ std::string scene_text(const Scenario& s) {
 
 std::string plume_text(const Scenario& s) {
     const auto& p = s.plume.parameters;
-    std::string out = fmt::format("plume {}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{};", s.plume.rise, fmt::join(p.voxel_m, ","),
+    std::string out = fmt::format("plume {}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{};", s.plume.rise, fmt::join(p.voxel_m, ","),
                                   p.top_m, p.duration_s, p.minimum_excess_K, p.entrainment, p.merge_m,
                                   p.emission_factor_g_kg, p.heat_of_combustion_J_kg, p.temperature_K.value_or(-1.0),
-                                  s.plume.smoke, s.plume.grey_absorption_per_m.value_or(-1.0));
+                                  s.plume.smoke, s.plume.grey_absorption_per_m.value_or(-1.0), s.plume.multiple_scattering);
     for (const auto& layer : s.plume.layers)
         out += fmt::format("{}|{}|{}|{}|{};", layer.bottom_m, layer.top_m, layer.concentration_g_m3.value_or(-1.0),
                            layer.optical_depth_550nm, layer.temperature_K.value_or(-1.0));

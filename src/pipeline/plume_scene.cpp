@@ -89,6 +89,7 @@ void set_plume_optics(const Scenario& scenario, const radiometry::SpectralGrid& 
         optics.smoke_extinction_per_m.assign(static_cast<std::size_t>(grid.size()), static_cast<float>(*grey));
         return;
     }
+    optics.smoke_multiple_scattering = scenario.plume.multiple_scattering;
     const auto smoke = smoke_of(scenario);
     for (const double lambda_um : grid.lambda_um) {
         const auto at = radiometry::smoke_coefficients(smoke, lambda_um, 1.0);

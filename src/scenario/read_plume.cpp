@@ -91,6 +91,9 @@ PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const f
     plume.grey_absorption_per_m = node.optional_number("absorption_per_m", Range::between(0.0, 1e3));
     p.uniform = plume.grey_absorption_per_m.has_value();
     plume.smoke = node.choice("smoke", plume.smoke, {"savanna", "cerrado", "amazon_forest", "boreal_forest"});
+    plume.multiple_scattering = node.boolean("multiple_scattering", true);
+    if (node.has("multiple_scattering") && plume.grey_absorption_per_m)
+        node.child("multiple_scattering").report("a grey plume ('plume.absorption_per_m') absorbs only");
     const auto layers = node.child("layers");
     if (layers.present())
         for (const auto& item : layers.items()) plume.layers.push_back(read_layer(item));

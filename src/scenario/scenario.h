@@ -111,6 +111,7 @@ struct PlumeSettings {
     fire::PlumeParameters parameters;
     std::string smoke = "savanna";                ///< kind of smoke (radiometry/smoke.h)
     std::optional<double> grey_absorption_per_m;  ///< of every plume voxel, instead of smoke
+    bool multiple_scattering = true;              ///< of light by smoke; false: once only
     std::vector<SmokeLayerSettings> layers;
 };
 

@@ -170,6 +170,7 @@ constexpr const char* kSchema = R"json({
             "temperature_K": {"$ref": "#/$defs/temperature_K"}
           }}},
         "smoke": {"enum": ["savanna", "cerrado", "amazon_forest", "boreal_forest"], "default": "savanna"},
+        "multiple_scattering": {"type": "boolean", "default": true, "description": "false: smoke scatters light once"},
         "emission_factor_g_kg": {"type": "number", "minimum": 0, "maximum": 1000, "default": 10},
         "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 1e8, "default": 17.433e6}
       }

@@ -72,6 +72,8 @@ TEST(Plume, LayersOfSmokeAreRead) {
     EXPECT_FALSE(s.plume.layers[0].concentration_g_m3.has_value());
     EXPECT_EQ(s.plume.layers[1].concentration_g_m3, 2e-4);
     EXPECT_EQ(s.plume.layers[1].temperature_K, 280.0);
+    EXPECT_TRUE(s.plume.multiple_scattering);
+    EXPECT_FALSE(folder.load(shortest("plume: {model: rise, multiple_scattering: false}\n")).plume.multiple_scattering);
 }
 
 }  // namespace pyroscene::scenario
