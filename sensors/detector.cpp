@@ -21,13 +21,13 @@ double planck_slope(double T_K, const Spectrum& response) {
            (2.0 * step_K);
 }
 
-/// One range of a detector: its noise, full scale and step of its counts (0 = not counted).
+/// One range of a detector: its noise, where it begins and ends, and the step of its counts (0 = not counted).
 struct CountingRange {
     RadianceNoise noise;
-    double full_scale = std::numeric_limits<double>::infinity(), step = 0.0;
+    double begin = 0.0, full_scale = std::numeric_limits<double>::infinity(), step = 0.0;
 
     [[nodiscard]] double counted(double signal) const {
-        return step > 0.0 ? std::max(0.0, std::round(signal / step)) * step : signal;
+        return step > 0.0 ? begin + std::max(0.0, std::round((signal - begin) / step)) * step : signal;
     }
 };
 
@@ -52,8 +52,14 @@ CountingRanges counting_ranges(const Band& band) {
     CountingRanges ranges;
     ranges.wide = counting_range(band.noise, band.noise_factor, band.saturation_radiance_W_m2_sr_um, band);
     ranges.sensitive.full_scale = -std::numeric_limits<double>::infinity();
-    if (const auto& range = band.sensitive_range)
-        ranges.sensitive = counting_range(range->noise, 1.0, range->maximum_W_m2_sr_um, band);
+    const auto& range = band.sensitive_range;
+    if (!range) return ranges;
+    ranges.sensitive = counting_range(range->noise, 1.0, range->maximum_W_m2_sr_um, band);
+    if (range->share_of_counts) {  // the wide range goes on where the sensitive one ends
+        ranges.wide.begin = ranges.sensitive.full_scale;
+        ranges.wide.step *= (1.0 - ranges.wide.begin / ranges.wide.full_scale) / (1.0 - *range->share_of_counts);
+        ranges.sensitive.step /= *range->share_of_counts;
+    }
     return ranges;
 }
 

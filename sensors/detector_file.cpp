@@ -116,6 +116,20 @@ void read_dual_gain(const Node& node, Band& band) {
     node.finish();
 }
 
+/// One scale of counts with a knee: finer steps below it.
+void read_dual_slope(const Node& node, Band& band) {
+    if (!node.present()) return;
+    const double albedo = node.required_child("knee_albedo").as_number(0.25, Range::positive());
+    const double share = node.required_child("share_of_counts").as_number(0.5, Range{0.01, 0.99});
+    node.finish();
+    if (band.response.value.empty()) return;
+    const double knee = sunlit_radiance(albedo, band.response);
+    if (!band.saturation_radiance_W_m2_sr_um || knee >= *band.saturation_radiance_W_m2_sr_um)
+        node.report("needs a saturation above its knee");
+    else
+        band.sensitive_range = {knee, band.noise, share};
+}
+
 /// Wavelengths [um] that the end of a name gives: ..._below_0.7um, ..._0.7_1.3um, ..._above_1.85um.
 std::optional<std::array<double, 2>> range_of_name(const std::string& name) {
     static const std::regex open(".*_(below|above)_([0-9.]+)um"), closed(".*_([0-9.]+)_([0-9.]+)um");
@@ -174,6 +188,7 @@ void read_detector(const Node& node, const Digitisation& digitisation, Band& ban
         band.bits = static_cast<int>(own.as_integer(16, Range::between(1, 32)));
     read_saturation(node.child("saturation"), digitisation.exposure_ratio, band);
     read_dual_gain(node.child("dual_gain"), band);
+    read_dual_slope(node.child("dual_slope"), band);
 }
 
 void read_channel_detectors(const Node& root, const Digitisation& digitisation, std::vector<Band>& bands) {

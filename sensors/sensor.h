@@ -77,6 +77,8 @@ struct Band {
     struct SensitiveRange {
         double maximum_W_m2_sr_um = 0.0;
         Noise noise;
+        std::optional<double>
+            share_of_counts{};  ///< dual slope: of the one scale that both ranges share; else each counts to 2^bits
     };
     std::optional<SensitiveRange> sensitive_range;
     double noise_factor = 1.0;  ///< on `noise`: of a shorter exposure than the one it was stated for

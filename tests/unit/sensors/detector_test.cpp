@@ -104,6 +104,19 @@ TEST(Noise, OfRadianceGrowsWithTheRootOfTheSignal) {
     EXPECT_DOUBLE_EQ(noise_radiance(band, 4.0), 0.5);  // sqrt(0.09 + 0.16)
 }
 
+TEST(Detector, ADualSlopeSharesItsCounts) {
+    Band band = mwir();
+    band.noise = {};
+    band.saturation_radiance_W_m2_sr_um = 640.0;
+    band.bits = 6;  // 32 counts of 5 up to 160, 32 counts of 15 up to 640
+    band.sensitive_range = Band::SensitiveRange{160.0, {}, 0.5};
+    std::vector<float> L{7.0F, 157.0F, 162.0F, 180.0F, 400.0F, 700.0F};
+    std::vector<std::uint8_t> flags(L.size());
+    apply_detector(band, {}, L, flags);
+    EXPECT_EQ(L, (std::vector<float>{5.0F, 155.0F, 160.0F, 175.0F, 400.0F, 640.0F}));
+    EXPECT_EQ(flags.back(), kClipped);
+}
+
 TEST(Detector, ASensitiveRangeCountsFinerAndIsQuieter) {
     Band band = mwir();
     band.saturation_radiance_W_m2_sr_um = 640.0;

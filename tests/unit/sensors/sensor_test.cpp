@@ -150,6 +150,18 @@ TEST(Sensor, GainsAndCountsAreThoseOfTheFiles) {
     ASSERT_TRUE(mir.sensitive_range.has_value());
     EXPECT_NEAR(radiometry::band_brightness_temperature(mir.sensitive_range->maximum_W_m2_sr_um, mir.response), 350.0, 0.01);
     EXPECT_NEAR(noise_radiance(mir, 100.0) / noise_radiance(mir, 1.0), 20.0, 1e-9);
+    // AVHRR/3: half of 1024 counts below an albedo of 25 %, so that a count is 0.049 % there and 0.146 % above.
+    const Sensor avhrr = load_sensor("avhrr3-noaa18");
+    const Band& red = avhrr.bands.front();
+    const double sunlit = sunlit_radiance(1.0, red.response);
+    std::vector<float> L;
+    for (const double albedo : {0.0997, 0.6017}) L.push_back(static_cast<float>(albedo * sunlit));
+    std::vector<std::uint8_t> flags(L.size());
+    Band quiet = red;
+    quiet.noise = quiet.sensitive_range->noise = {};
+    apply_detector(quiet, {}, L, flags);
+    EXPECT_NEAR(L[0] / sunlit, std::round(0.0997 * 2048.0) / 2048.0, 1e-6);
+    EXPECT_NEAR(L[1] / sunlit, 0.25 + 0.75 * std::round((0.6017 - 0.25) / 0.75 * 512.0) / 512.0, 1e-6);
     const Sensor ols = load_sensor("dmsp-ols");
     EXPECT_EQ(ols.bands.front().bits, 6);
     EXPECT_EQ(ols.bands[static_cast<std::size_t>(ols.band_index("TIR"))].bits, 8);
