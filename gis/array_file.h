@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -30,6 +32,8 @@ struct ArrayVariable {
     SampleType type = SampleType::Float32;
     std::optional<double> fill{};  ///< _FillValue
     Attributes attributes{};
+    /// Instead of values: gives them when they are written, plane by plane of a variable of three dimensions, else at once.
+    std::function<std::vector<double>(std::size_t plane)> make{};
 };
 
 struct ArrayFile {
@@ -38,8 +42,17 @@ struct ArrayFile {
     std::map<std::string, std::string> attributes;  ///< of the file
 };
 
-/// Size of a variable by its dimensions. Throws a runtime error with `subject` when it has not as many values, or a dimension
-/// that the file does not know.
-std::vector<std::size_t> checked_shape(const ArrayFile& file, const ArrayVariable& variable, const std::string& subject);
+/// A piece of a variable: from `start` on `count` values along each dimension.
+struct ArrayPart {
+    std::vector<std::size_t> start, count;
+    std::span<const double> values;
+};
+
+/// Extent of a variable along its dimensions. Throws a runtime error with `subject` for a dimension that the file does not know.
+std::vector<std::size_t> array_shape(const ArrayFile& file, const ArrayVariable& variable, const std::string& subject);
+/// Hands on the parts of a variable one after another. Throws a runtime error with `subject` when its dimensions ask for another
+/// number of values.
+void for_each_part(const ArrayFile& file, const ArrayVariable& variable, const std::string& subject,
+                   const std::function<void(const ArrayPart&)>& take);
 
 }  // namespace pyroscene::gis

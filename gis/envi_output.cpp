@@ -94,6 +94,33 @@ void write_envi(const std::filesystem::path& path, const EnviHeader& header, con
     write_text_file(std::filesystem::path(path.string() + ".hdr"), header_text<T>(header));
 }
 
+template <class T>
+void write_envi_rearranged(const std::filesystem::path& path, const EnviHeader& header, const std::filesystem::path& cube,
+                           T fill, const std::function<std::ptrdiff_t(int line, int sample)>& source) {
+    std::ifstream in(cube, std::ios::binary);
+    const auto bands = static_cast<std::size_t>(header.bands);
+    const auto bytes = static_cast<std::streamsize>(bands * sizeof(T));
+    write_envi<T>(path, header, [&](int line, std::span<T> pixels) {
+        for (int sample = 0; sample < header.samples; ++sample) {
+            const auto pixel = pixels.subspan(static_cast<std::size_t>(sample) * bands, bands);
+            const std::ptrdiff_t i = source(line, sample);
+            if (i < 0) {
+                std::fill(pixel.begin(), pixel.end(), fill);
+                continue;
+            }
+            in.seekg(static_cast<std::streamoff>(i) * bytes);
+            in.read(reinterpret_cast<char*>(pixel.data()), bytes);
+            if (!in) throw runtime_error(cube.string(), "cannot be read again");
+            most_significant_first(pixel);
+        }
+    });
+}
+
+template void write_envi_rearranged(const std::filesystem::path&, const EnviHeader&, const std::filesystem::path&,
+                                    std::int16_t, const std::function<std::ptrdiff_t(int, int)>&);
+template void write_envi_rearranged(const std::filesystem::path&, const EnviHeader&, const std::filesystem::path&, float,
+                                    const std::function<std::ptrdiff_t(int, int)>&);
+
 template void write_envi(const std::filesystem::path&, const EnviHeader&, const EnviLine<std::int16_t>&);
 template void write_envi(const std::filesystem::path&, const EnviHeader&, const EnviLine<std::int32_t>&);
 template void write_envi(const std::filesystem::path&, const EnviHeader&, const EnviLine<float>&);

@@ -33,4 +33,10 @@ using EnviLine = std::function<void(int line, std::span<T> pixels)>;
 template <class T>
 void write_envi(const std::filesystem::path& path, const EnviHeader& header, const EnviLine<T>& line);
 
+/// Writes a cube whose pixels are those of another that write_envi() wrote with as many bands: pixel `source(line, sample)`
+/// (counted along its lines), or `fill` in all bands where that is negative. Memory does not grow with the cubes.
+template <class T>
+void write_envi_rearranged(const std::filesystem::path& path, const EnviHeader& header, const std::filesystem::path& cube,
+                           T fill, const std::function<std::ptrdiff_t(int line, int sample)>& source);
+
 }  // namespace pyroscene::gis

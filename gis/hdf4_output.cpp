@@ -1,5 +1,6 @@
 #include "gis/hdf4_output.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -58,9 +59,21 @@ struct DataSet {
     ~DataSet() { SDendaccess(id); }
 };
 
+/// Compressed; a variable that comes in planes in chunks of one plane, because a compressed whole can only be written at once.
+bool set_compression(::int32 set, const ArrayVariable& v, const std::vector<::int32>& edges) {
+    comp_info deflate{};
+    deflate.deflate.level = 1;
+    if (!v.make || edges.size() != 3) return SDsetcompress(set, COMP_CODE_DEFLATE, &deflate) != FAIL;
+    HDF_CHUNK_DEF chunk{};
+    chunk.comp.comp_type = COMP_CODE_DEFLATE;
+    chunk.comp.cinfo = deflate;
+    for (std::size_t k = 0; k < edges.size(); ++k) chunk.comp.chunk_lengths[k] = k == 0 ? 1 : edges[k];
+    return SDsetchunk(set, chunk, HDF_CHUNK | HDF_COMP) != FAIL;
+}
+
 void write_variable(::int32 file_id, const ArrayFile& file, const ArrayVariable& v, const std::string& subject) {
-    const auto shape = checked_shape(file, v, subject);
-    std::vector<::int32> edges(shape.begin(), shape.end()), start(shape.size(), 0);
+    const auto shape = array_shape(file, v, subject);
+    std::vector<::int32> edges(shape.begin(), shape.end());
     with_type(v.type, [&](auto sample, ::int32 type) {
         using Sample = decltype(sample);
         const DataSet set(SDcreate(file_id, v.name.c_str(), type, static_cast<::int32>(edges.size()), edges.data()));
@@ -68,18 +81,20 @@ void write_variable(::int32 file_id, const ArrayFile& file, const ArrayVariable&
         for (std::size_t k = 0; k < edges.size(); ++k)
             require(SDsetdimname(SDgetdimid(set.id, static_cast<intn>(k)), v.dimensions[k].c_str()) != FAIL, subject,
                     v.name);
-        comp_info deflate{};
-        deflate.deflate.level = 1;
-        require(SDsetcompress(set.id, COMP_CODE_DEFLATE, &deflate) != FAIL, subject, v.name);
+        require(set_compression(set.id, v, edges), subject, v.name);
         bool done = set_text(set.id, "long_name", v.long_name) && set_text(set.id, "units", v.unit);
         if (v.fill) {
             Sample fill = static_cast<Sample>(*v.fill);
             done = done && SDsetfillvalue(set.id, &fill) != FAIL;
         }
         for (const auto& [key, value] : v.attributes) done = done && set_attribute(set.id, key, value);
-        std::vector<Sample> typed(v.values.size());
-        for (std::size_t i = 0; i < typed.size(); ++i) typed[i] = static_cast<Sample>(v.values[i]);
-        done = done && SDwritedata(set.id, start.data(), nullptr, edges.data(), typed.data()) != FAIL;
+        for_each_part(file, v, subject, [&](const ArrayPart& part) {
+            std::vector<::int32> start(part.start.begin(), part.start.end()), count(part.count.begin(), part.count.end());
+            std::vector<Sample> typed(part.values.size());
+            std::transform(part.values.begin(), part.values.end(), typed.begin(),
+                           [](double value) { return static_cast<Sample>(value); });
+            done = done && SDwritedata(set.id, start.data(), nullptr, count.data(), typed.data()) != FAIL;
+        });
         require(done, subject, v.name);
     });
 }

@@ -61,8 +61,8 @@ std::pair<GDALGroup*, std::string> place_of(const std::string& name, Groups& gro
 
 void write_variable(Groups& groups, const Dimensions& dimensions, const ArrayFile& file, const ArrayVariable& v,
                     const std::string& subject, const GdalErrors& errors) {
-    const auto count = checked_shape(file, v, subject);
     std::vector<std::shared_ptr<GDALDimension>> axes;
+    (void)array_shape(file, v, subject);  // all dimensions are there
     for (const auto& name : v.dimensions) axes.push_back(dimensions.at(name));
     CPLStringList options;
     if (!axes.empty()) options.SetNameValue("COMPRESS", "DEFLATE");
@@ -74,10 +74,12 @@ void write_variable(Groups& groups, const Dimensions& dimensions, const ArrayFil
     set_text(*array, "long_name", v.long_name);
     if (v.fill) array->SetNoDataValue(*v.fill);
     for (const auto& [key, value] : v.attributes) set_attribute(*array, key, value);
-    const std::vector<GUInt64> start(count.size(), 0);
-    if (!array->Write(start.data(), count.data(), nullptr, nullptr, GDALExtendedDataType::Create(GDT_Float64),
-                      v.values.data()))
-        throw runtime_error(subject, fmt::format("variable {}: {}", v.name, errors.message()));
+    for_each_part(file, v, subject, [&](const ArrayPart& part) {
+        const std::vector<GUInt64> start(part.start.begin(), part.start.end());
+        if (!array->Write(start.data(), part.count.data(), nullptr, nullptr, GDALExtendedDataType::Create(GDT_Float64),
+                          part.values.data()))
+            throw runtime_error(subject, fmt::format("variable {}: {}", v.name, errors.message()));
+    });
 }
 
 }  // namespace

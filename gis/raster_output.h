@@ -26,8 +26,9 @@ struct GroundControlPoint {
     double lon_deg = 0.0, lat_deg = 0.0, h_m = 0.0;
 };
 
-/// Deflate is read by every program; Zstd is several times faster on large image cubes, but some commercial readers lack it.
-enum class Compression { Deflate, Zstd };
+/// Deflate is read by every program; Zstd is several times faster on large image cubes, but some commercial readers lack it;
+/// None is for files that do not stay.
+enum class Compression { Deflate, Zstd, None };
 
 /// Description of an output raster. Float32 with NaN nodata, or Byte with nodata 255 when `classes` is set.
 struct OutputRaster {
@@ -46,7 +47,8 @@ struct OutputRaster {
     bool classes = false;                         ///< Byte, class names from `class_names`
     std::vector<std::string> class_names;
     Compression compression = Compression::Deflate;
-    int threads = 0;  ///< that compress; 0 = all cores. The file is the same for any number
+    int threads = 0;    ///< that compress; 0 = all cores. The file is the same for any number
+    int tile_rows = 0;  ///< most rows of a tile, as TiffWriter takes its parts; 0 = by the number of bands
 };
 
 /// Tiled, compressed GeoTIFF. `pixels` is [band][row][col]. Written under a temporary name and renamed; statistics included.

@@ -25,31 +25,37 @@ std::map<std::string, std::string> default_metadata(GDALMajorObject& object) {
 }
 
 template <class T>
-BandStatistics band_statistics(std::span<const T> pixels) noexcept {
-    BandStatistics s;
-    double first = 0.0, sum = 0.0, sum_of_squares = 0.0;  // of the differences to the first value: no cancellation
-    std::size_t count = 0;
+void StatisticsSum::add(std::span<const T> pixels) noexcept {
+    StatisticsSum s = *this;  // in registers
+    s.pixels_ += pixels.size();
     for (const T pixel : pixels) {
         if (std::isnan(pixel)) continue;
         const auto value = static_cast<double>(pixel);
-        if (count == 0) first = s.minimum = s.maximum = value;
-        ++count;
-        s.minimum = std::min(s.minimum, value);
-        s.maximum = std::max(s.maximum, value);
-        const double d = value - first;
-        sum += d;
-        sum_of_squares += d * d;
+        if (s.valid_ == 0) s.first_ = s.minimum_ = s.maximum_ = value;
+        ++s.valid_;
+        s.minimum_ = std::min(s.minimum_, value);
+        s.maximum_ = std::max(s.maximum_, value);
+        const double d = value - s.first_;
+        s.sum_ += d;
+        s.sum_of_squares_ += d * d;
     }
-    s.any = count > 0;
+    *this = s;
+}
+template void StatisticsSum::add(std::span<const float>) noexcept;
+template void StatisticsSum::add(std::span<const double>) noexcept;
+
+BandStatistics StatisticsSum::statistics() const noexcept {
+    BandStatistics s;
+    s.any = valid_ > 0;
     if (!s.any) return s;
-    const auto n = static_cast<double>(count);
-    s.mean = first + sum / n;
-    s.standard_deviation = std::sqrt(std::max(0.0, sum_of_squares / n - (sum / n) * (sum / n)));
-    s.valid_percent = 100.0 * n / static_cast<double>(pixels.size());
+    const auto n = static_cast<double>(valid_);
+    s.minimum = minimum_;
+    s.maximum = maximum_;
+    s.mean = first_ + sum_ / n;
+    s.standard_deviation = std::sqrt(std::max(0.0, sum_of_squares_ / n - (sum_ / n) * (sum_ / n)));
+    s.valid_percent = 100.0 * n / static_cast<double>(pixels_);
     return s;
 }
-template BandStatistics band_statistics(std::span<const float>) noexcept;
-template BandStatistics band_statistics(std::span<const double>) noexcept;
 
 namespace {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,20 @@ struct BandStatistics {
     double minimum = 0.0, maximum = 0.0, mean = 0.0, standard_deviation = 0.0, valid_percent = 0.0;
     bool any = false;  ///< false = no valid pixel: only the share is meaningful
 };
-template <class T>
-BandStatistics band_statistics(std::span<const T> pixels) noexcept;  ///< T = float or double; NaN = no data
+
+/// Gathers them from the pixels of a band in their order, however cut.
+class StatisticsSum {
+public:
+    template <class T>
+    void add(std::span<const T> pixels) noexcept;  ///< T = float or double; NaN = no data
+    [[nodiscard]] BandStatistics statistics() const noexcept;
+    [[nodiscard]] std::size_t pixels() const noexcept { return pixels_; }
+
+private:
+    double first_ = 0.0, minimum_ = 0.0, maximum_ = 0.0;
+    double sum_ = 0.0, sum_of_squares_ = 0.0;  ///< of the differences to the first value: no cancellation
+    std::size_t valid_ = 0, pixels_ = 0;
+};
 
 /// All tags of a raster: the caller's, provenance, time, wavelengths (band, ENVI and IMAGERY domains), geolocation, classes,
 /// statistics (one entry per band). Throws a runtime error with `subject` for an acquisition time that is not ISO 8601.

@@ -145,7 +145,7 @@ std::vector<float> noise_and_rounding(const Band& band, std::span<const float> r
 }
 
 std::int64_t apply_detector(const Band& band, const RandomKey& key, std::span<float> radiance_W_m2_sr_um,
-                            std::span<std::uint8_t> saturated) {
+                            std::span<std::uint8_t> saturated, std::size_t first) {
     if (radiance_W_m2_sr_um.size() != saturated.size())
         throw runtime_error(fmt::format("band {}", band.id),
                             fmt::format("{} pixels but {} saturation flags", radiance_W_m2_sr_um.size(), saturated.size()));
@@ -158,7 +158,7 @@ std::int64_t apply_detector(const Band& band, const RandomKey& key, std::span<fl
         double signal = radiance_W_m2_sr_um[i];
         if (std::isnan(signal)) continue;
         if (const double sigma = ranges.of(signal).noise.sigma(signal); sigma > 0.0)
-            signal += sigma * standard_normal(key, i);
+            signal += sigma * standard_normal(key, first + i);
         if (signal > folds_from) {
             signal = std::fmod(signal - folds_from, wide.full_scale);
             saturated[i] = kFoldedOver;

@@ -42,12 +42,13 @@ enum Saturation : std::uint8_t { kUnsaturated = 0, kClipped = 1, kFoldedOver = 2
 /// What the detector makes of one band of noise-free radiance, in place: noise, clipping at saturation (or folding over, see
 /// Band::fold_over), quantisation over [0, full scale] to `bits`. A signal up to the maximum of the sensitive range has the
 /// noise and the full scale of that range. Element i of the plane draws its own random number, so the result does not depend
-/// on order. The step is full scale / 2^bits, rounded to nearest, negative signals read 0; a clipped pixel reads the saturation
+/// on order, nor on the parts that a plane comes in. The step is full scale / 2^bits, rounded to nearest, negative signals read 0; a clipped pixel reads the saturation
 /// radiance itself. Without a saturation there is no full scale and nothing is clipped or quantised. NaN stays NaN.
 /// \param saturated  set to a Saturation for each element (same length)
+/// \param first  place of the first element given in its plane
 /// \return number of clipped or folded pixels
 std::int64_t apply_detector(const Band& band, const RandomKey& key, std::span<float> radiance_W_m2_sr_um,
-                            std::span<std::uint8_t> saturated);
+                            std::span<std::uint8_t> saturated, std::size_t first = 0);
 
 /// Mixes the sensor's stray light into one plane [line][sample], in place: (1 - share) of each pixel's radiance and `share` of
 /// the Gaussian mean around it, over pixels that hold data. Nothing for a share of 0.

@@ -5,41 +5,33 @@
 
 namespace pyroscene::analysis {
 
-Mosaic empty_mosaic(const MapGrid& grid, std::size_t band_count) {
-    constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
-    const std::size_t n = grid.size();
-    return {grid,
-            band_count,
-            std::vector<float>(band_count * n, kNoData),
-            std::vector<float>(n, kNoData),
-            std::vector<float>(n, kNoData),
-            std::vector<float>(n, kNoData)};
+Mosaic empty_mosaic(const MapGrid& grid) {
+    const std::vector<float> nothing(grid.size(), std::numeric_limits<float>::quiet_NaN());
+    return {grid, nothing, nothing, nothing};
 }
 
 void add_to_mosaic(Mosaic& mosaic, const MosaicMember& member, MosaicRule rule, int number) {
-    const auto on_map = [&](std::span<const float> plane, bool nearest) {
-        return ortho_resample(member.lookup, member.samples, member.lines, plane, nearest);
+    const auto on_map = [&](std::span<const float> plane) {
+        return ortho_resample(member.lookup, member.samples, member.lines, plane, true);
     };
-    const std::size_t n = mosaic.grid.size();
-    const std::size_t image = static_cast<std::size_t>(member.samples) * static_cast<std::size_t>(member.lines);
-    const auto time_s = on_map(member.time_s, true), zenith_deg = on_map(member.view_zenith_deg, true);
-    std::vector<bool> taken(n, false);
-    for (std::size_t i = 0; i < n; ++i) {
+    const auto time_s = on_map(member.time_s), zenith_deg = on_map(member.view_zenith_deg);
+    for (std::size_t i = 0; i < time_s.size(); ++i) {
         if (std::isnan(time_s[i]) || std::isnan(zenith_deg[i])) continue;
         const bool better = rule == MosaicRule::NearestNadir ? zenith_deg[i] < mosaic.view_zenith_deg[i]
                             : rule == MosaicRule::Latest     ? time_s[i] > mosaic.time_s[i]
                                                              : time_s[i] < mosaic.time_s[i];
         if (!better && !std::isnan(mosaic.member[i])) continue;
-        taken[i] = true;
         mosaic.member[i] = static_cast<float>(number);
         mosaic.time_s[i] = time_s[i];
         mosaic.view_zenith_deg[i] = zenith_deg[i];
     }
-    for (std::size_t b = 0; b < mosaic.band_count; ++b) {
-        const auto plane = on_map(member.pixels.subspan(b * image, image), false);
-        for (std::size_t i = 0; i < n; ++i)
-            if (taken[i]) mosaic.pixels[b * n + i] = plane[i];
-    }
+}
+
+void fill_from_member(const Mosaic& mosaic, const MosaicMember& member, int number, std::span<const float> plane,
+                      std::span<float> band) {
+    const auto on_map = ortho_resample(member.lookup, member.samples, member.lines, plane, false);
+    for (std::size_t i = 0; i < on_map.size(); ++i)
+        if (mosaic.member[i] == static_cast<float>(number)) band[i] = on_map[i];
 }
 
 }  // namespace pyroscene::analysis

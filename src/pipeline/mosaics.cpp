@@ -1,11 +1,13 @@
 #include "pipeline/mosaics.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "analysis/mosaic.h"
 #include "base/error.h"
+#include "gis/tiff_writer.h"
 #include "pipeline/rendered_image.h"
 
 namespace pyroscene::pipeline {
@@ -66,29 +68,41 @@ gis::OutputRaster raster_of(const MosaicJob& job, const MapGrid& grid, std::vect
 }  // namespace
 
 void write_mosaic(const MosaicJob& job, RunReport& report) {
+    struct Member {
+        analysis::OrthoLookup lookup;
+        std::unique_ptr<gis::ImageStream> radiance;
+    };
     const MapGrid grid = common_grid(job);
-    const auto band_count = job.members.front().bands.size();
-    auto mosaic = analysis::empty_mosaic(grid, band_count);
-    std::vector<gis::OutputBand> bands;
-    for (std::size_t k = 0; k < job.members.size(); ++k) {
-        const auto& member = job.members[k];
-        if (member.bands != job.members.front().bands)
+    auto mosaic = analysis::empty_mosaic(grid);
+    std::vector<Member> members;
+    const auto on_map = [](const Member& m, std::span<const float> zenith_deg, std::span<const float> time_s) {
+        const auto& info = m.radiance->info();
+        return analysis::MosaicMember{m.lookup, info.cols, info.rows, zenith_deg, time_s};
+    };
+    for (const auto& job_of_member : job.members) {
+        if (job_of_member.bands != job.members.front().bands)
             throw input_error(fmt::format("mosaic '{}'", job.mosaic.id),
                               fmt::format("acquisitions '{}' and '{}' have not the same bands",
-                                          job.members.front().acquisition.id, member.acquisition.id));
-        const auto image = read_rendered(member);
-        if (bands.empty()) bands = image.radiance.bands;
-        const auto lookup = visible_ground(member, image, grid, report);
-        const std::vector<float> pixels(image.radiance.pixels.begin(), image.radiance.pixels.end());
+                                          job.members.front().acquisition.id, job_of_member.acquisition.id));
+        auto image = read_rendered(job_of_member);
+        members.push_back({visible_ground(job_of_member, image, grid, report), std::move(image.radiance)});
         const auto zenith_deg = plane_of(image, kViewZenith), time_s = plane_of(image, kPixelTime);
-        analysis::add_to_mosaic(mosaic, {lookup, image.samples, image.lines, pixels, zenith_deg, time_s},
-                                rule_of(job.mosaic), static_cast<int>(k) + 1);
+        analysis::add_to_mosaic(mosaic, on_map(members.back(), zenith_deg, time_s), rule_of(job.mosaic),
+                                static_cast<int>(members.size()));
     }
-    std::vector<float> out = std::move(mosaic.pixels);
-    for (const auto* plane : {&mosaic.time_s, &mosaic.member, &mosaic.view_zenith_deg})
-        out.insert(out.end(), plane->begin(), plane->end());
+    const auto& bands = members.front().radiance->info().bands;
     std::filesystem::create_directories(job.file.parent_path());
-    gis::write_cog(job.file, raster_of(job, grid, std::move(bands)), std::span<const float>(out));
+    gis::CogWriter out(job.file, raster_of(job, grid, bands));
+    for (std::size_t b = 0; b < bands.size(); ++b) {
+        std::vector<float> band(grid.size(), std::nanf(""));
+        for (std::size_t k = 0; k < members.size(); ++k)
+            analysis::fill_from_member(mosaic, on_map(members[k], {}, {}), static_cast<int>(k) + 1,
+                                       members[k].radiance->read_band(static_cast<int>(b) + 1), band);
+        out.write_band(b, band);
+    }
+    std::size_t next = bands.size();
+    for (const auto* plane : {&mosaic.time_s, &mosaic.member, &mosaic.view_zenith_deg}) out.write_band(next++, *plane);
+    out.finish();
     report.count("mosaics_made", 1);
 }
 

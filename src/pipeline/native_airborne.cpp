@@ -9,7 +9,7 @@
 #include "analysis/rpc.h"
 #include "base/constants.h"
 #include "base/files.h"
-#include "gis/raster_output.h"
+#include "gis/tiff_writer.h"
 #include "pipeline/native.h"
 #include "radiometry/planck.h"
 
@@ -114,9 +114,8 @@ Json orientation(const NativeJob& job, double residual_px) {
 /// Brightness temperature of a rendered band.
 std::vector<float> brightness_K(const NativeJob& job, std::size_t k) {
     const radiometry::BandThermometer thermometer(job.band(k).response);
-    std::vector<float> out(job.image.n);
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = static_cast<float>(thermometer.temperature_K(job.image.radiance.pixels[k * job.image.n + i]));
+    auto out = job.image.radiance_plane(k);
+    for (float& value : out) value = static_cast<float>(thermometer.temperature_K(value));
     return out;
 }
 
@@ -153,10 +152,12 @@ void write_oriented_frame(const NativeJob& job) {
     auto out = raster_of(job);
     out.cols = job.image.samples;
     out.rows = job.image.lines;
-    out.bands = job.image.radiance.bands;
+    out.bands = job.image.radiance->info().bands;
     for (const auto& [key, value] : analysis::rpc_metadata(camera, residual_px)) out.rpc[key] = value;
-    const std::vector<float> pixels(job.image.radiance.pixels.begin(), job.image.radiance.pixels.end());
-    gis::write_geotiff(file_of(job, "_frame.tif"), out, std::span<const float>(pixels));
+    gis::TiffWriter frame(file_of(job, "_frame.tif"), std::move(out));
+    for (std::size_t k = 0; k < job.job.bands.size(); ++k)
+        frame.write({k, 1, 0, job.image.lines}, job.image.radiance_plane(k));
+    frame.finish();
     write_text_file(file_of(job, "_orientation.json"), orientation(job, residual_px).dump(2) + "\n");
     job.report.record("rpc_largest_residual_px/" + job.job.acquisition.id + job.job.files.suffix, residual_px);
 }

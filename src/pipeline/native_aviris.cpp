@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/files.h"
 #include "gis/envi_output.h"
+#include "gis/tiff_writer.h"
 #include "pipeline/native.h"
 #include "radiometry/sun.h"
 
@@ -18,8 +19,6 @@ namespace {
 constexpr double kNative_per_SI = 0.1;  ///< uW cm-2 nm-1 sr-1 in one W m-2 sr-1 um-1
 constexpr int kNoCounts = -50;          ///< fill of the integer cubes
 constexpr double kNoValue = -9999.0;
-
-std::size_t size(const RenderedImage& r, std::size_t bands) { return r.n * bands; }
 
 gis::EnviHeader header(const NativeJob& job, const std::string& what, std::vector<std::string> bands) {
     gis::EnviHeader h;
@@ -68,31 +67,29 @@ template <class T, class Count>
 void write_cubes(const NativeJob& job, const std::string& stem, T fill, const Count& count) {
     const auto& r = job.image;
     const std::size_t bands = job.job.bands.size(), samples = static_cast<std::size_t>(r.samples);
-    std::vector<T> cube(size(r, bands));
-    for (int line = 0; line < r.lines; ++line)
-        for (std::size_t k = 0; k < bands; ++k)
-            for (std::size_t s = 0; s < samples; ++s) {
-                const std::size_t i = static_cast<std::size_t>(line) * samples + s;
-                const double radiance = r.radiance.pixels[k * r.n + i];
-                cube[i * bands + k] = std::isnan(radiance) ? fill : count(k, radiance * kNative_per_SI);
-            }
     const std::string what = std::is_same_v<T, float> ? "radiance, uW cm-2 nm-1 sr-1" : "radiance, uW cm-2 nm-1 sr-1 x gain";
     const auto h = cube_header(job, what, fill);
-    gis::write_envi<T>(job.folder / (stem + "_img"), h, [&](int line, std::span<T> out) {
-        std::copy_n(cube.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(line) * out.size()), out.size(),
-                    out.begin());
-    });
-    const MapGrid& grid = job.lookup.grid;
-    gis::write_envi<T>(job.folder / (stem + "_ort_img"), on_grid(h, grid), [&](int row, std::span<T> out) {
-        for (int col = 0; col < grid.cols; ++col) {
-            const auto to = out.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(col) * bands);
-            const auto i = source_pixel(job, grid.index(row, col));
-            if (i < 0)
-                std::fill_n(to, bands, fill);
-            else
-                std::copy_n(cube.begin() + i * static_cast<std::ptrdiff_t>(bands), bands, to);
+    const auto cube = job.folder / (stem + "_img");
+    const int most = gis::rows_of_part(samples * bands, r.lines);
+    int first = 0, read = 0;  // lines in memory
+    std::vector<float> radiance;
+    gis::write_envi<T>(cube, h, [&](int line, std::span<T> out) {
+        if (line >= first + read) {
+            first = line;
+            read = std::min(most, r.lines - line);
+            radiance.resize(static_cast<std::size_t>(read) * samples * bands);
+            r.radiance->read(first, read, radiance);
+        }
+        for (std::size_t k = 0; k < bands; ++k) {
+            const float* in =
+                &radiance[(k * static_cast<std::size_t>(read) + static_cast<std::size_t>(line - first)) * samples];
+            for (std::size_t s = 0; s < samples; ++s)
+                out[s * bands + k] = std::isnan(in[s]) ? fill : count(k, static_cast<double>(in[s]) * kNative_per_SI);
         }
     });
+    const MapGrid& grid = job.lookup.grid;
+    gis::write_envi_rearranged<T>(job.folder / (stem + "_ort_img"), on_grid(h, grid), cube, fill,
+                                  [&](int row, int col) { return source_pixel(job, grid.index(row, col)); });
 }
 
 void write_gains(const NativeJob& job, const std::string& stem) {

@@ -80,11 +80,8 @@ std::string sensor_band_id(const std::string& modis_name) {
 }
 
 /// Counts of one band, or fill where it was not rendered; saturated pixels get the instrument's code.
-void append_counts(const NativeJob& job, const Swath& swath, std::ptrdiff_t k, double step, std::vector<double>& counts) {
-    if (k < 0) {
-        counts.insert(counts.end(), swath.size(), kFill);
-        return;
-    }
+std::vector<double> counts_of(const NativeJob& job, const Swath& swath, std::ptrdiff_t k, double step) {
+    if (k < 0) return std::vector<double>(swath.size(), kFill);
     const auto& band = job.band(static_cast<std::size_t>(k));
     const auto radiance = radiance_of(job, k);
     auto plane = pack(swath, radiance, {step, 0.0, kFill, kMostCounts});
@@ -95,14 +92,14 @@ void append_counts(const NativeJob& job, const Swath& swath, std::ptrdiff_t k, d
             if (swath.pixel[i] >= 0 && radiance[static_cast<std::size_t>(swath.pixel[i])] >= limit) plane[i] = kSaturated;
     }
     for (double& value : plane) value = value < 0.0 ? 0.0 : value;  // noise about zero
-    counts.insert(counts.end(), plane.begin(), plane.end());
+    return plane;
 }
 
 void add_band_set(const NativeJob& job, const Swath& swath, const Resolution& resolution, const BandSet& set,
                   gis::ArrayFile& file) {
     const std::vector<std::string> dimensions{set.band_dimension, "10*nscans", resolution.frames};
     file.dimensions.emplace_back(set.band_dimension, set.bands.size());
-    gis::ArrayVariable counts{set.name, dimensions, "none", set.long_name, {}, SampleType::UInt16, kFill, {}};
+    gis::ArrayVariable counts{set.name, dimensions, "none", set.long_name, {}, SampleType::UInt16, kFill, {}, {}};
     gis::ArrayVariable uncertainty{std::string(set.name) + "_Uncert_Indexes",
                                    dimensions,
                                    "none",
@@ -110,19 +107,28 @@ void add_band_set(const NativeJob& job, const Swath& swath, const Resolution& re
                                    {},
                                    SampleType::UInt8,
                                    255.0,
+                                   {},
                                    {}};
     Numbers radiance_scales, radiance_offsets, reflectance_scales, reflectance_offsets;
+    std::vector<std::ptrdiff_t> rendered;
     for (const char* name : set.bands) {
         const auto k = rendered_band(job, sensor_band_id(name));
         const double step = k < 0 ? 1.0 : radiance_step(job, k, kMostCounts);
-        append_counts(job, swath, k, step, counts.values);
+        rendered.push_back(k);
         radiance_scales.values.push_back(step);
         radiance_offsets.values.push_back(0.0);
         reflectance_offsets.values.push_back(0.0);
         reflectance_scales.values.push_back(
             k < 0 || !set.reflective ? step : step * reflectance_per_radiance(job, job.band(static_cast<std::size_t>(k))));
     }
-    for (const double value : counts.values) uncertainty.values.push_back(value > kMostCounts ? 15.0 : 0.0);
+    counts.make = [&job, &swath, rendered, steps = radiance_scales.values](std::size_t band) {
+        return counts_of(job, swath, rendered[band], steps[band]);
+    };
+    uncertainty.make = [make = counts.make](std::size_t band) {
+        auto index = make(band);
+        for (double& value : index) value = value > kMostCounts ? 15.0 : 0.0;
+        return index;
+    };
     counts.attributes = {{"band_names", fmt::format("{}", fmt::join(set.bands, ","))},
                          {"valid_range", Numbers{SampleType::UInt16, {0.0, kMostCounts}}},
                          {"radiance_scales", radiance_scales},
@@ -188,7 +194,7 @@ void write_geolocation(const NativeJob& job, const Swath& swath, const char* fra
         if (plane == kViewAzimuth || plane == kSunAzimuth)
             for (double& v : values) v = v > 180.0 ? v - 360.0 : v;
         gis::ArrayVariable v{
-            name, {"nscans*10", frames}, unit, "", pack(swath, values, {scale, 0.0, fill, 65535.0}), type, fill, {}};
+            name, {"nscans*10", frames}, unit, "", pack(swath, values, {scale, 0.0, fill, 65535.0}), type, fill, {}, {}};
         if (scale != 0.0) v.attributes.emplace_back("scale_factor", Numbers{SampleType::Float64, {scale}});
         file.variables.push_back(std::move(v));
     };
@@ -201,7 +207,7 @@ void write_geolocation(const NativeJob& job, const Swath& swath, const char* fra
     add("SolarZenith", "degrees", kSunZenith, SampleType::Int16, 0.01, -32767.0);
     add("SolarAzimuth", "degrees", kSunAzimuth, SampleType::Int16, 0.01, -32767.0);
     file.variables.push_back(
-        {"EV start time", {"nscans"}, "seconds", "", scan_start_tai93(job, swath), SampleType::Float64, {}, {}});
+        {"EV start time", {"nscans"}, "seconds", "", scan_start_tai93(job, swath), SampleType::Float64, {}, {}, {}});
     write_file(job, "03", file);
 }
 

@@ -19,8 +19,9 @@ Swath whole_swath(const NativeJob& job) {
     swath.samples = std::max(job.job.group.scan.samples(), r.samples);
     const int before = r.scans.first_line_of_scan;
     swath.lines = (before + r.lines + swath.lines_per_scan - 1) / swath.lines_per_scan * swath.lines_per_scan;
-    const auto first = r.radiance.metadata.find("FIRST_SAMPLE");
-    const int first_sample = first == r.radiance.metadata.end() ? 0 : std::stoi(first->second);
+    const auto& metadata = r.radiance->info().metadata;
+    const auto first = metadata.find("FIRST_SAMPLE");
+    const int first_sample = first == metadata.end() ? 0 : std::stoi(first->second);
     swath.pixel.assign(static_cast<std::size_t>(swath.samples) * static_cast<std::size_t>(swath.lines), -1);
     for (int line = 0; line < r.lines; ++line)
         for (int s = 0; s < r.samples; ++s)
@@ -91,8 +92,9 @@ std::ptrdiff_t rendered_band(const NativeJob& job, const std::string& id) {
     return -1;
 }
 
-std::span<const double> radiance_of(const NativeJob& job, std::ptrdiff_t band) {
-    return std::span(job.image.radiance.pixels).subspan(static_cast<std::size_t>(band) * job.image.n, job.image.n);
+std::vector<double> radiance_of(const NativeJob& job, std::ptrdiff_t band) {
+    const auto plane = job.image.radiance_plane(static_cast<std::size_t>(band));
+    return {plane.begin(), plane.end()};
 }
 
 double radiance_step(const NativeJob& job, std::ptrdiff_t band, double steps) {

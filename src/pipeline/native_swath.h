@@ -29,7 +29,7 @@ std::vector<double> scan_start_tai93(const NativeJob& job, const Swath& swath);
 
 /// Position of a band among the rendered ones, or -1.
 std::ptrdiff_t rendered_band(const NativeJob& job, const std::string& id);
-std::span<const double> radiance_of(const NativeJob& job, std::ptrdiff_t band);
+std::vector<double> radiance_of(const NativeJob& job, std::ptrdiff_t band);
 
 /// Radiance of one stored step, such that the saturation of the band, or the brightest pixel, is `steps` of them.
 double radiance_step(const NativeJob& job, std::ptrdiff_t band, double steps);

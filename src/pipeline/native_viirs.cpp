@@ -105,11 +105,14 @@ void add_band(const NativeJob& job, const Swath& swath, std::size_t k, gis::Arra
     const auto& band = job.band(k);
     const auto index = static_cast<std::ptrdiff_t>(k);
     const double step = radiance_step(job, index, kMostCounts);
-    auto counts = pack(swath, radiance_of(job, index), {step, 0.0, kFill, kFill});
-    for (double& c : counts)
-        if (c < 0.0) c = 0.0;
-    mark_deleted(job, swath, counts);
-    gis::ArrayVariable v{"observation_data/" + band.id, kPixels, "", "", std::move(counts), SampleType::UInt16, kFill, {}};
+    gis::ArrayVariable v{"observation_data/" + band.id, kPixels, "", "", {}, SampleType::UInt16, kFill, {}, {}};
+    v.make = [&job, &swath, index, step](std::size_t) {
+        auto counts = pack(swath, radiance_of(job, index), {step, 0.0, kFill, kFill});
+        for (double& c : counts)
+            if (c < 0.0) c = 0.0;
+        mark_deleted(job, swath, counts);
+        return counts;
+    };
     const char* radiance_units = "Watts/meter^2/steradian/micrometer";
     v.attributes = {{"valid_min", ushorts({0.0})},
                     {"valid_max", ushorts({kMostCounts})},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 #include "base/files.h"
 #include "drawing/qgis_style.h"
 #include "drawing/quicklook.h"
-#include "gis/raster_output.h"
+#include "gis/tiff_writer.h"
 #include "pipeline/fronts.h"
 #include "pipeline/incident_map.h"
 #include "pipeline/native.h"
@@ -32,53 +33,54 @@ namespace {
 struct Product {
     std::string stem;
     std::vector<gis::OutputBand> bands;
-    std::vector<float> pixels;  ///< [band][line][sample]
+    std::function<std::vector<float>(std::size_t band)> plane;  ///< [line][sample], made anew at each call
     bool in_sensor_geometry = true;
 };
 
 Product brightness_product(const ProductJob& job, const RenderedImage& r) {
-    Product p{"brightness_temperature", {}, std::vector<float>(job.bands.size() * r.n)};
-    for (std::size_t k = 0; k < job.bands.size(); ++k) {
+    Product p{"brightness_temperature", {}, {}};
+    for (const int b : job.bands) {
+        const auto& band = job.sensor.bands[static_cast<std::size_t>(b)];
+        p.bands.push_back({band.id + " brightness temperature", "K", band.centre_um, band.fwhm_um, {{"band_id", band.id}}});
+    }
+    p.plane = [&job, &r](std::size_t k) {
         const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
         // A thermometer is a table of a few hundred integrals: worth making for more pixels than that.
         constexpr std::size_t kFew = 256;
         std::optional<radiometry::BandThermometer> table;
         if (r.n > kFew) table.emplace(band.response);
-        const auto temperature_K = [&](double radiance) {
-            return table ? table->temperature_K(radiance) : radiometry::band_brightness_temperature(radiance, band.response);
-        };
-        p.bands.push_back({band.id + " brightness temperature", "K", band.centre_um, band.fwhm_um, {{"band_id", band.id}}});
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(k * r.n, (k + 1) * r.n), [&](const auto& part) {
+        auto plane = r.radiance_plane(k);
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, plane.size()), [&](const auto& part) {
             for (std::size_t i = part.begin(); i < part.end(); ++i)
-                p.pixels[i] = static_cast<float>(temperature_K(r.radiance.pixels[i]));
+                plane[i] = static_cast<float>(table ? table->temperature_K(plane[i])
+                                                    : radiometry::band_brightness_temperature(plane[i], band.response));
         });
-    }
+        return plane;
+    };
     return p;
 }
 
 Product fractions_product(const RenderedImage& r) {
-    Product p{"fractions", {}, {}};
-    for (std::size_t k = kFlame; k <= kSmoke; ++k) {
-        p.bands.push_back({r.truth->bands[k].description, "1", {}, {}, {}});
-        const auto plane = r.truth_plane(k);
-        p.pixels.insert(p.pixels.end(), plane.begin(), plane.end());
-    }
+    Product p{"fractions", {}, [&r](std::size_t k) { return r.truth_plane(kFlame + k); }};
+    for (std::size_t k = kFlame; k <= kSmoke; ++k)
+        p.bands.push_back({r.truth->info().bands[k].description, "1", {}, {}, {}});
     return p;
 }
 
 Product frp_product(const RenderedImage& r) {
-    Product p{
+    return {
         "frp",
         {{"fire radiative power per area", "W m-2", {}, {}, {}}, {"fire radiative power of the pixel", "MW", {}, {}, {}}},
-        {}};
-    p.pixels = r.truth_plane(kExitance);
-    for (std::size_t i = 0; i < r.n; ++i) p.pixels.push_back(p.pixels[i] * r.pixel_area_m2[i] * 1e-6F);
-    return p;
+        [&r](std::size_t k) {
+            auto plane = r.truth_plane(kExitance);
+            if (k == 1)
+                for (std::size_t i = 0; i < r.n; ++i) plane[i] *= r.pixel_area_m2[i] * 1e-6F;
+            return plane;
+        }};
 }
 
 Product radiance_product(const RenderedImage& r) {
-    Product p{"radiance", r.radiance.bands, {r.radiance.pixels.begin(), r.radiance.pixels.end()}, false};
-    return p;
+    return {"radiance", r.radiance->info().bands, [&r](std::size_t k) { return r.radiance_plane(k); }, false};
 }
 
 gis::OutputRaster raster_of(const ProductJob& job, const Product& product) {
@@ -93,12 +95,12 @@ gis::OutputRaster raster_of(const ProductJob& job, const Product& product) {
     return out;
 }
 
-void write_sensor_geometry(const ProductJob& job, const RenderedImage& r, const Product& product) {
+gis::TiffWriter image_writer(const ProductJob& job, const RenderedImage& r, const Product& product) {
     auto out = raster_of(job, product);
     out.cols = r.samples;
     out.rows = r.lines;
     out.geolocation = job.files.geolocation();
-    gis::write_geotiff(job.files.file(product.stem), out, std::span<const float>(product.pixels));
+    return {job.files.file(product.stem), std::move(out)};
 }
 
 /// How QGIS shows an ortho product: ranges that are the same for every image of the band.
@@ -119,33 +121,41 @@ drawing::RasterStyle style_of(const Product& product, double gsd_m) {
                               : drawing::RasterStyle{1, "W m-2", drawing::power_ladder(5e4)};
 }
 
-void write_ortho(const ProductJob& job, const RenderedImage& r, const Product& product,
-                 const analysis::OrthoLookup& lookup) {
+gis::CogWriter map_writer(const ProductJob& job, const RenderedImage& r, const Product& product, const MapGrid& grid) {
     auto out = raster_of(job, product);
-    out.grid = lookup.grid;
-    out.cols = lookup.grid.cols;
-    out.rows = lookup.grid.rows;
-    std::vector<float> pixels;
-    pixels.reserve(product.bands.size() * lookup.grid.size());
-    for (std::size_t k = 0; k < product.bands.size(); ++k) {
-        const auto plane =
-            analysis::ortho_resample(lookup, r.samples, r.lines, std::span(product.pixels).subspan(k * r.n, r.n), false);
-        pixels.insert(pixels.end(), plane.begin(), plane.end());
-    }
-    gis::write_cog(job.files.file("ortho_" + product.stem), out, std::span<const float>(pixels));
+    out.grid = grid;
+    out.cols = grid.cols;
+    out.rows = grid.rows;
     drawing::write_qgis_style(job.files.file("ortho_" + product.stem), style_of(product, r.gsd_m));
+    return {job.files.file("ortho_" + product.stem), std::move(out)};
+}
+
+/// In sensor geometry and, with a look-up, on the map; one band in memory.
+void write_product(const ProductJob& job, const RenderedImage& r, const Product& product,
+                   const analysis::OrthoLookup* lookup) {
+    std::optional<gis::TiffWriter> image;
+    std::optional<gis::CogWriter> map;
+    if (product.in_sensor_geometry) image.emplace(image_writer(job, r, product));
+    if (lookup != nullptr) map.emplace(map_writer(job, r, product, lookup->grid));
+    for (std::size_t k = 0; k < product.bands.size() && (image || map); ++k) {
+        const auto plane = product.plane(k);
+        if (image) image->write({k, 1, 0, r.lines}, plane);
+        if (map) map->write_band(k, analysis::ortho_resample(*lookup, r.samples, r.lines, plane, false));
+    }
+    if (image) image->finish();
+    if (map) map->finish();
 }
 
 /// One point per pixel with flame or front in it.
-void write_fire_pixels(const ProductJob& job, const RenderedImage& r, const Product& frp) {
+void write_fire_pixels(const ProductJob& job, const RenderedImage& r) {
     using Json = nlohmann::ordered_json;
     Json features = Json::array();
-    const auto flame = r.truth_plane(kFlame), front = r.truth_plane(kFront);
+    const auto flame = r.truth_plane(kFlame), front = r.truth_plane(kFront), power = frp_product(r).plane(1);
     const auto round_to = [](double v, double step) { return std::round(v / step) * step; };
     for (std::size_t i = 0; i < r.n; ++i) {
         constexpr double kSmallest = 1e-3;
         if (!(flame[i] + front[i] > kSmallest)) continue;
-        const double power_MW = frp.pixels[r.n + i];
+        const double power_MW = power[i];
         features.push_back(
             {{"type", "Feature"},
              {"geometry",
@@ -178,8 +188,7 @@ void write_vectors(const ProductJob& job, const std::filesystem::path& output) {
                        state, fronts_path(path));
 }
 
-/// \param brightness  null: not made
-void write_picture(const ProductJob& job, const RenderedImage& r, const Product* brightness) {
+void write_picture(const ProductJob& job, const RenderedImage& r, const Product& brightness) {
     constexpr std::size_t kMostPanels = 4;
     std::vector<drawing::QuicklookPanel> panels;
     const std::size_t step = (job.bands.size() + kMostPanels - 1) / kMostPanels;
@@ -196,14 +205,8 @@ void write_picture(const ProductJob& job, const RenderedImage& r, const Product*
             warmest = k;
     const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[warmest])];
     constexpr double kThermal_um = 3.0;
-    if (brightness != nullptr && band.centre_um > kThermal_um && panels.size() < kMostPanels) {
-        const auto first = brightness->pixels.begin() + static_cast<std::ptrdiff_t>(warmest * r.n);
-        panels.push_back({band.id + " brightness temperature",
-                          "K",
-                          r.samples,
-                          r.lines,
-                          {first, first + static_cast<std::ptrdiff_t>(r.n)},
-                          false});
+    if (job.scenario.products.brightness_temperature && band.centre_um > kThermal_um && panels.size() < kMostPanels) {
+        panels.push_back({band.id + " brightness temperature", "K", r.samples, r.lines, brightness.plane(warmest), false});
     }
     const auto caption = fmt::format("{}  {}  {}  {}  SYNTHETIC", job.scenario.name, job.acquisition.id, job.sensor.id,
                                      UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601());
@@ -212,10 +215,11 @@ void write_picture(const ProductJob& job, const RenderedImage& r, const Product*
 
 /// An image of one pixel is a spectrum: a table, and a diagram in place of a picture.
 void write_spectrum(const ProductJob& job, const RenderedImage& r, const Product& brightness) {
-    PixelSpectrum s{fmt::format("{}  {}  {}  SYNTHETIC", job.scenario.name, job.acquisition.id, job.sensor.id),
-                    {},
-                    {r.radiance.pixels.begin(), r.radiance.pixels.end()},
-                    brightness.pixels};
+    PixelSpectrum s{fmt::format("{}  {}  {}  SYNTHETIC", job.scenario.name, job.acquisition.id, job.sensor.id), {}, {}, {}};
+    for (std::size_t k = 0; k < job.bands.size(); ++k) {
+        s.radiance_W_m2_sr_um.push_back(r.radiance_plane(k).front());
+        s.brightness_temperature_K.push_back(brightness.plane(k).front());
+    }
     for (const int b : job.bands) s.bands.push_back(&job.sensor.bands[static_cast<std::size_t>(b)]);
     write_spectrum_table(job.files.folder / ("spectrum" + job.files.suffix + ".csv"), s);
     if (job.scenario.products.quicklook)
@@ -267,12 +271,6 @@ StacImage stac_image(const ProductJob& job, const RenderedImage& r, const MapGri
     return image;
 }
 
-/// Whether a product shows more than where the pixels are.
-bool needs_pixels(const scenario::Products& wanted) {
-    return wanted.brightness_temperature || wanted.ortho || wanted.quicklook || wanted.native ||
-           (wanted.truth && (wanted.fractions || wanted.frp));
-}
-
 }  // namespace
 
 bool make_products(const ProductJob& job, const RunOptions& options, RunReport& report) {
@@ -287,37 +285,30 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
     std::optional<PhaseTimer> timer;
     stage(0.0);
     timer.emplace(report, "products/read");
-    auto r = read_ground(job);
-    const bool spectrum = r.n == 1 && job.bands.size() > 1;
-    if (spectrum || needs_pixels(wanted)) read_pixels(job, r);
-    timer.emplace(report, "products/sensor_geometry");
+    const auto r = read_rendered(job);
+    const auto brightness = brightness_product(job, r);
     std::vector<Product> made;
-    if (spectrum || wanted.brightness_temperature) made.push_back(brightness_product(job, r));
-    if (!made.empty() && !wanted.brightness_temperature) made.back().stem.clear();
+    if (wanted.ortho) made.push_back(radiance_product(r));
+    if (wanted.brightness_temperature) made.push_back(brightness);
     if (wanted.fractions && r.truth) made.push_back(fractions_product(r));
     if (wanted.frp && r.truth) made.push_back(frp_product(r));
-    for (const auto& product : made)
-        if (!product.stem.empty()) write_sensor_geometry(job, r, product);
-    stage(0.3);
-    timer.emplace(report, "products/vectors");
-    if (wanted.frp && r.truth) {
-        write_fire_pixels(job, r, made.back());
-        write_vectors(job, options.output);
-    }
     MapGrid grid = job.inputs.grid;
     std::optional<analysis::OrthoLookup> lookup;
     if ((wanted.ortho || wanted.native) && r.gsd_m > 0.0) {  // a single pixel, or one that sees no ground, has no size
-        timer.emplace(report, "products/ortho");
+        timer.emplace(report, "products/ortho_lookup");
         grid = analysis::ortho_grid(job.inputs.grid, ortho_cell_m(r.gsd_m), r.x_m, r.y_m);
         lookup = visible_ground(job, r, grid, report);
-        stage(0.4);
     }
-    if (wanted.ortho && lookup) {
-        write_ortho(job, r, radiance_product(r), *lookup);
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            stage(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(made.size()));
-            if (!made[i].stem.empty()) write_ortho(job, r, made[i], *lookup);
-        }
+    timer.emplace(report, "products/rasters");
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        stage(0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(made.size()));
+        write_product(job, r, made[i], wanted.ortho && lookup ? &*lookup : nullptr);
+    }
+    stage(0.7);
+    if (wanted.frp && r.truth) {
+        timer.emplace(report, "products/vectors");
+        write_fire_pixels(job, r);
+        write_vectors(job, options.output);
     }
     if (wanted.native && lookup) {
         timer.emplace(report, "products/native");
@@ -325,10 +316,10 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
     }
     stage(0.9);
     timer.emplace(report, "products/quicklook");
-    if (spectrum)
-        write_spectrum(job, r, made.front());
+    if (r.n == 1 && job.bands.size() > 1)
+        write_spectrum(job, r, brightness);
     else if (wanted.quicklook)
-        write_picture(job, r, wanted.brightness_temperature ? &made.front() : nullptr);
+        write_picture(job, r, brightness);
     write_stac_item(job, stac_image(job, r, grid));
     report.count("products/" + job.acquisition.id, 1);
     stage(1.0);

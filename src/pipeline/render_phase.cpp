@@ -5,283 +5,39 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "gis/raster_output.h"
-#include "pipeline/sensor_json.h"
-#include "sensors/detector.h"
+#include "pipeline/geolocation.h"
+#include "pipeline/image_files.h"
 
 namespace pyroscene::pipeline {
 namespace {
-
-using render::RadianceImage;
-
-/// A ray that meets nothing, for pixels that the instrument does not send.
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr render::SceneRay kNowhere{{kNaN, kNaN, kNaN}, {kNaN, kNaN, kNaN}};
-
-/// Sun angles over the scene: exact at the centre, linear in latitude and longitude around it (a few km: < 0.001 deg).
-class LocalSun {
-public:
-    LocalSun(double unix_s, const gis::Geodetic& centre) : centre_(centre) {
-        const auto at = [&](double dlat, double dlon) {
-            return radiometry::sun_position(unix_s, centre.lat_deg + dlat, centre.lon_deg + dlon);
-        };
-        constexpr double kStep_deg = 0.05;
-        here_ = at(0.0, 0.0);
-        const auto north = at(kStep_deg, 0.0), east = at(0.0, kStep_deg);
-        zenith_per_deg_ = {(north.zenith_rad - here_.zenith_rad) / kStep_deg,
-                           (east.zenith_rad - here_.zenith_rad) / kStep_deg};
-        azimuth_per_deg_ = {std::remainder(north.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg,
-                            std::remainder(east.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg};
-    }
-    [[nodiscard]] const radiometry::SunPosition& centre() const { return here_; }
-    [[nodiscard]] double zenith_rad(double lat_deg, double lon_deg) const {
-        return here_.zenith_rad + zenith_per_deg_[0] * (lat_deg - centre_.lat_deg) +
-               zenith_per_deg_[1] * (lon_deg - centre_.lon_deg);
-    }
-    [[nodiscard]] double azimuth_rad(double lat_deg, double lon_deg) const {
-        return here_.azimuth_rad + azimuth_per_deg_[0] * (lat_deg - centre_.lat_deg) +
-               azimuth_per_deg_[1] * (lon_deg - centre_.lon_deg);
-    }
-
-private:
-    gis::Geodetic centre_;
-    radiometry::SunPosition here_;
-    std::array<double, 2> zenith_per_deg_{}, azimuth_per_deg_{};
-};
-
-double positive_degrees(double angle_rad) {
-    const double degrees = std::fmod(angle_rad / kDegree_rad, 360.0);
-    return degrees < 0.0 ? degrees + 360.0 : degrees;
-}
 
 Vec3 sun_direction(const radiometry::SunPosition& sun, double convergence_rad) {
     const double azimuth_on_grid = sun.azimuth_rad - convergence_rad, s = std::sin(sun.zenith_rad);
     return {s * std::sin(azimuth_on_grid), s * std::cos(azimuth_on_grid), std::cos(sun.zenith_rad)};
 }
 
-/// The geolocation planes in the order of the file.
-constexpr std::array<std::array<const char*, 2>, 9> kGeolocationBands{{{"longitude", "degree"},
-                                                                       {"latitude", "degree"},
-                                                                       {"height", "m"},
-                                                                       {"view_zenith", "degree"},
-                                                                       {"view_azimuth", "degree"},
-                                                                       {"sun_zenith", "degree"},
-                                                                       {"sun_azimuth", "degree"},
-                                                                       {"range", "m"},
-                                                                       {"time", "s"}}};
+/// A ray that meets nothing, for pixels that the instrument does not send.
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr render::SceneRay kNowhere{{kNaN, kNaN, kNaN}, {kNaN, kNaN, kNaN}};
 
-/// \param surroundings_m  height of the ground beyond the map, which pixels past it show; nothing: such pixels have no place
-std::vector<double> geolocate(const RadianceImage& image, const sensors::ImageGeometry& geometry,
-                              const sensors::ImageChords& chords, const LocalSun& sun,
-                              std::optional<double> surroundings_m) {
-    const std::size_t n = static_cast<std::size_t>(image.samples) * static_cast<std::size_t>(image.lines);
-    std::vector<double> planes(n * kGeolocationBands.size(), std::nan(""));
-    tbb::parallel_for(0, image.lines, [&](int line) {
-        const auto scan = chords.scan(sensors::scan_position_of(geometry, 0, line).scan);
-        for (int sample = 0; sample < image.samples; ++sample) {
-            const std::size_t i =
-                static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
-            const bool on_map = image.coverage[i] > 0.0F;
-            if (!on_map && (!surroundings_m || chords.open() || sensors::pixel_deleted(geometry, sample, line))) continue;
-            const auto position = sensors::scan_position_of(geometry, sample, line);
-            const auto chord = scan.at(position.u, position.v);
-            const Vec3 hit_m = on_map ? Vec3{image.hit_x_m[i], image.hit_y_m[i], image.hit_z_m[i]}
-                                      : Vec3{0.0, 0.0, surroundings_m.value_or(0.0)};
-            const Vec3 way_m = chord.bottom_m - chord.top_m;
-            const double f = chords.open() ? dot(hit_m - chord.top_m, way_m) / dot(way_m, way_m)
-                                           : (chord.top_m.z - hit_m.z) / (chord.top_m.z - chord.bottom_m.z);
-            const double lon = std::lerp(chord.top_lon_deg, chord.bottom_lon_deg, f);
-            const double lat = std::lerp(chord.top_lat_deg, chord.bottom_lat_deg, f);
-            const Vec3 v = chord.view_enu;
-            const double values[] = {lon,
-                                     lat,
-                                     hit_m.z,
-                                     std::atan2(std::hypot(v.x, v.y), v.z) / kDegree_rad,
-                                     positive_degrees(std::atan2(v.x, v.y)),
-                                     sun.zenith_rad(lat, lon) / kDegree_rad,
-                                     positive_degrees(sun.azimuth_rad(lat, lon)),
-                                     std::lerp(chord.top_range_m, chord.bottom_range_m, f),
-                                     sensors::pixel_time_s(geometry, sample, line)};
-            for (std::size_t b = 0; b < std::size(values); ++b) planes[b * n + i] = values[b];
-        }
-    });
-    return planes;
-}
-
-std::vector<gis::GroundControlPoint> control_points(const RadianceImage& image, const std::vector<double>& planes) {
-    std::vector<gis::GroundControlPoint> points;
-    const std::size_t n = static_cast<std::size_t>(image.samples) * static_cast<std::size_t>(image.lines);
-    constexpr int kPerAxis = 9;
-    for (int r = 0; r < kPerAxis; ++r)
-        for (int c = 0; c < kPerAxis; ++c) {
-            const int line = r * (image.lines - 1) / (kPerAxis - 1), sample = c * (image.samples - 1) / (kPerAxis - 1);
-            const std::size_t i =
-                static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
-            if (!std::isnan(planes[i]))
-                points.push_back({sample + 0.5, line + 0.5, planes[i], planes[n + i], planes[2 * n + i]});
-        }
-    // A scene that fills a corner of the image may lie between them: then its own pixels, evenly.
-    constexpr std::size_t kFewest = 4, kMost = 64;
-    if (points.size() >= kFewest) return points;
-    std::vector<std::size_t> seen;
-    for (std::size_t i = 0; i < n; ++i)
-        if (!std::isnan(planes[i])) seen.push_back(i);
-    points.clear();
-    const auto samples = static_cast<std::size_t>(image.samples);
-    for (std::size_t k = 0; k < seen.size(); k += std::max<std::size_t>(1, seen.size() / kMost)) {
-        const std::size_t i = seen[k];
-        points.push_back({static_cast<double>(i % samples) + 0.5, static_cast<double>(i / samples) + 0.5, planes[i],
-                          planes[n + i], planes[2 * n + i]});
-    }
-    return points;
-}
-
-std::map<std::string, std::string> common_metadata(const GroupJob& job) {
-    const auto pose = job.geometry.path.at(0.0);
-    const auto& group = job.group;
-    const auto& scan = job.geometry.scan;
-    const auto place_in_scan = sensors::scan_position_of(job.geometry, 0, 0);
-    const bool lines_of_scans = scan.kind != sensors::ScanLaw::Kind::Frame && scan.kind != sensors::ScanLaw::Kind::Disk;
-    return {{"FINGERPRINT", job.fingerprint},
-            {"SCAN_TYPE", scan_type_name(job.sensor.scan)},
-            {"FIRST_SAMPLE", fmt::format("{}", job.geometry.first_sample)},
-            {"FIRST_LINE", fmt::format("{}", job.geometry.first_line)},
-            {"LINES_PER_SCAN", fmt::format("{}", lines_of_scans ? scan.lines_per_scan : job.geometry.lines)},
-            {"FIRST_LINE_OF_SCAN", fmt::format("{}", lines_of_scans ? static_cast<int>(std::floor(place_in_scan.v)) : 0)},
-            {"SCENARIO", job.scenario.name},
-            {"ACQUISITION", job.acquisition.id},
-            {"SENSOR", job.sensor.id},
-            {"CAMERA_GROUP", group.id},
-            {"TIME_S", fmt::format("{}", job.acquisition.time_s)},
-            {"PLATFORM_LATITUDE_DEG", fmt::format("{:.10f}", pose.position.lat_deg)},
-            {"PLATFORM_LONGITUDE_DEG", fmt::format("{:.10f}", pose.position.lon_deg)},
-            {"PLATFORM_HEIGHT_M", fmt::format("{:.4f}", pose.position.h_m)},
-            {"PLATFORM_HEADING_DEG", fmt::format("{}", pose.heading_rad / kDegree_rad)},
-            {"PLATFORM_PITCH_DEG", fmt::format("{}", pose.pitch_rad / kDegree_rad)},
-            {"PLATFORM_ROLL_DEG", fmt::format("{}", pose.roll_rad / kDegree_rad)},
-            {"FOCAL_LENGTH_M", fmt::format("{}", group.focal_length_m)},
-            {"PIXEL_PITCH_M", fmt::format("{}", group.pixel_pitch_m)},
-            {"PHYSICS", job.scenario.physics == fire::Physics::Thesis ? "thesis" : "default"}};
-}
-
-gis::OutputRaster sensor_raster(const GroupJob& job, const std::vector<gis::GroundControlPoint>& points) {
-    gis::OutputRaster out;
-    out.cols = job.geometry.samples;
-    out.rows = job.geometry.lines;
-    out.geolocation = job.files.geolocation();
-    out.control_points = points;
-    out.metadata = common_metadata(job);
-    out.acquisition_time = UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
-    return out;
-}
-
-void write_geolocation(const GroupJob& job, const std::vector<double>& planes) {
-    auto out = sensor_raster(job, {});
-    out.geolocation.reset();
-    out.compression = gis::Compression::Zstd;
-    for (const auto& [name, unit] : kGeolocationBands) out.bands.push_back({name, unit, {}, {}, {}});
-    gis::write_geotiff(job.files.geolocation(), out, std::span<const double>(planes));
-}
-
-/// What the detector makes of the noise-free image.
-struct Measured {
-    Buffer<float> radiance_W_m2_sr_um;    ///< [band][line][sample]
-    std::vector<std::uint8_t> saturated;  ///< same shape, 1 = clipped, 2 = folded over; of one band when no truth is wanted
-};
-
-/// Takes the noise-free radiance away when no truth is wanted, to have a cube only once.
-Measured measure(const GroupJob& job, RadianceImage& image, RunReport& report) {
-    const bool truth = job.scenario.products.truth;
-    const std::size_t n = image.coverage.size();
-    Measured out;
-    out.saturated.resize(truth ? image.radiance_W_m2_sr_um.size() : n);
-    out.radiance_W_m2_sr_um = truth ? image.radiance_W_m2_sr_um : std::move(image.radiance_W_m2_sr_um);
-    for (std::size_t k = 0; k < job.bands.size(); ++k) {
-        auto band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
-        if (!job.scenario.render.noise) {
-            band.noise = {};
-            if (band.sensitive_range) band.sensitive_range->noise = {};
-        }
-        const auto stream = fmt::format("noise/{}/{}", job.acquisition.id, band.id);
-        const RandomKey key{job.scenario.seed, stream_id(stream.c_str()), 0};
-        sensors::add_stray_light(job.sensor.stray, image.samples, std::span(out.radiance_W_m2_sr_um).subspan(k * n, n));
-        const auto count = sensors::apply_detector(band, key, std::span(out.radiance_W_m2_sr_um).subspan(k * n, n),
-                                                   std::span(out.saturated).subspan(truth ? k * n : 0, n));
-        report.count(fmt::format("saturated_pixels/{}/{}", job.acquisition.id, band.id), count);
-    }
-    return out;
-}
-
-void write_radiance(const GroupJob& job, const Measured& measured, const std::vector<gis::GroundControlPoint>& points) {
-    auto out = sensor_raster(job, points);
-    for (const int b : job.bands) {
-        const auto& band = job.sensor.bands[static_cast<std::size_t>(b)];
-        gis::OutputBand meta{band.id + " radiance", "W m-2 sr-1 um-1", band.centre_um, band.fwhm_um, {{"band_id", band.id}}};
-        if (band.saturation_radiance_W_m2_sr_um)
-            meta.metadata["saturation_radiance"] = fmt::format("{:.6g}", *band.saturation_radiance_W_m2_sr_um);
-        out.bands.push_back(std::move(meta));
-    }
-    gis::write_geotiff(job.files.radiance(), out, std::span<const float>(measured.radiance_W_m2_sr_um));
-}
-
-void write_truth(const GroupJob& job, const RadianceImage& image, const std::vector<std::uint8_t>& saturated) {
-    auto out = sensor_raster(job, {});
-    out.compression = gis::Compression::Zstd;  // the largest file; read by this program and by GDAL, hardly by others
-    const std::size_t n = image.coverage.size();
-    Buffer<float> pixels;
-    pixels.reserve(n * (10 + job.bands.size() * (2 + render::kTermCount)));
-    const auto add = [&](gis::OutputBand band, const auto& plane) {
-        out.bands.push_back(std::move(band));
-        pixels.insert(pixels.end(), plane.begin(), plane.end());
-    };
-    const auto fraction = [](const char* name) { return gis::OutputBand{name, "1", {}, {}, {}}; };
-    Buffer<float> smoke = image.smoke_fraction;
-    if (smoke.empty()) {  // no plume: the fraction is 0 wherever something is seen
-        smoke.resize(n);
-        for (std::size_t i = 0; i < n; ++i) smoke[i] = image.flame_fraction[i] * 0.0F;
-    }
-    add(fraction("fraction_flame"), image.flame_fraction);
-    add(fraction("fraction_front"), image.front_fraction);
-    add(fraction("fraction_scar"), image.scar_fraction);
-    add(fraction("fraction_background"), image.background_fraction);
-    add(fraction("fraction_smoke"), smoke);
-    add({"ground_temperature", "K", {}, {}, {}}, image.ground_temperature_K);
-    add({"flame_temperature", "K", {}, {}, {}}, image.flame_temperature_K);
-    add({"fire_radiant_exitance", "W m-2", {}, {}, {}}, image.radiant_exitance_W_m2);
-    add(fraction("scene_coverage"), image.coverage);
-    for (std::size_t k = 0; k < job.bands.size(); ++k) {
-        const auto& band = job.sensor.bands[static_cast<std::size_t>(job.bands[k])];
-        const auto plane = [&](const auto& cube) { return std::span(cube).subspan(k * n, n); };
-        const auto radiance = [&](const std::string& name) {
-            return gis::OutputBand{
-                band.id + " " + name, "W m-2 sr-1 um-1", band.centre_um, band.fwhm_um, {{"band_id", band.id}}};
-        };
-        add(radiance("radiance_noise_free"), plane(image.radiance_W_m2_sr_um));
-        add({band.id + " saturated", "1", {}, {}, {{"band_id", band.id}}}, plane(saturated));
-        for (std::size_t t = 0; t < image.terms.size(); ++t)
-            if (!image.terms[t].empty()) add(radiance(std::string("term_") + render::kTermNames[t]), plane(image.terms[t]));
-    }
-    gis::write_geotiff(job.files.truth(), out, std::span<const float>(pixels));
-}
-
-void report_image(const GroupJob& job, const RadianceImage& image, const render::RenderScene& scene, bool open,
-                  RunReport& report) {
-    const auto pixels = static_cast<std::int64_t>(image.coverage.size());
-    report.count("pixels", pixels);
-    const auto missed = std::count_if(image.coverage.begin(), image.coverage.end(), [](float c) { return !(c > 0.0F); });
-    if (missed == pixels && !open)
-        throw input_error(fmt::format("acquisition '{}'", job.acquisition.id), "the camera does not see the map at all");
-    if (missed > 0 && !open)
-        report.warn(fmt::format("acquisition '{}': {} of {} pixels look past the scene and {}", job.acquisition.id, missed,
-                                pixels, scene.surroundings ? "show its surroundings (render.background)" : "are no data"));
+void report_scene(const GroupJob& job, const render::RenderScene& scene, RunReport& report) {
     report.count("transport_wavelengths/" + job.acquisition.id, scene.optics->lambda_count);
     report.count("flame_bricks/" + job.acquisition.id, static_cast<std::int64_t>(scene.flame->bricks.size()));
     if (render::has_plume(scene))
         report.count("plume_bricks/" + job.acquisition.id, static_cast<std::int64_t>(scene.plume->bricks.size()));
+}
+
+void report_coverage(const GroupJob& job, std::int64_t missed, bool surrounded, bool open, RunReport& report) {
+    const auto pixels = static_cast<std::int64_t>(job.geometry.samples) * job.geometry.lines;
+    report.count("pixels", pixels);
+    if (missed == pixels && !open)
+        throw input_error(fmt::format("acquisition '{}'", job.acquisition.id), "the camera does not see the map at all");
+    if (missed > 0 && !open)
+        report.warn(fmt::format("acquisition '{}': {} of {} pixels look past the scene and {}", job.acquisition.id, missed,
+                                pixels, surrounded ? "show its surroundings (render.background)" : "are no data"));
 }
 
 render::GroundIrradiance ground_light(const GroupJob& job, const render::RenderScene& scene, const Monitor& monitor,
@@ -462,24 +218,24 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     };
     request.terms = scenario.products.truth;
 
-    RadianceImage image;
-    {
-        const PhaseTimer timer(report, "render/image");
-        image = render::render_image(scene, &light, request, monitor);
+    report_scene(job, scene, report);
+    ImageFiles files(job, render::has_plume(scene));
+    Geolocation geolocation(job.geometry, chords, sun, scene.surroundings ? std::optional(in.mean_height_m) : std::nullopt);
+    std::int64_t missed = 0;
+    render::RadianceImage lines;
+    render::ImageRenderer renderer(scene, &light, request, monitor);
+    for (int first = 0; first < request.lines; first += files.lines_at_once()) {
+        {
+            const PhaseTimer timer(report, "render/image");
+            renderer.render(first, std::min(files.lines_at_once(), request.lines - first), lines);
+            geolocation.add(lines);
+        }
+        missed += std::count_if(lines.coverage.begin(), lines.coverage.end(), [](float c) { return !(c > 0.0F); });
+        files.add(lines, report);
+        if (monitor.is_cancelled()) throw Cancelled();
     }
-    report_image(job, image, scene, chords.open(), report);
-
-    const PhaseTimer timer(report, "render/write");
-    const auto planes =
-        geolocate(image, job.geometry, chords, sun, scene.surroundings ? std::optional(in.mean_height_m) : std::nullopt);
-    const auto points = control_points(image, planes);
-    write_geolocation(job, planes);
-    if (monitor.is_cancelled()) throw Cancelled();
-    const auto measured = measure(job, image, report);
-    if (scenario.products.truth) write_truth(job, image, measured.saturated);
-    if (monitor.is_cancelled()) throw Cancelled();
-    // The radiance comes last: its presence says that the acquisition is rendered.
-    write_radiance(job, measured, points);
+    report_coverage(job, missed, scene.surroundings.has_value(), chords.open(), report);
+    files.finish(geolocation, report);
 }
 
 }  // namespace pyroscene::pipeline

@@ -66,14 +66,10 @@ RenderedImage read_ground(const ProductJob& job) {
     return r;
 }
 
-void read_pixels(const ProductJob& job, RenderedImage& r) {
-    r.radiance = gis::read_image(job.files.radiance());
-    if (job.scenario.products.truth) r.truth = gis::read_image(job.files.truth(), kExitance + 1);
-}
-
 RenderedImage read_rendered(const ProductJob& job) {
     RenderedImage r = read_ground(job);
-    read_pixels(job, r);
+    r.radiance = std::make_unique<gis::ImageStream>(job.files.radiance());
+    if (job.scenario.products.truth) r.truth = std::make_unique<gis::ImageStream>(job.files.truth());
     return r;
 }
 

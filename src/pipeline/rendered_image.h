@@ -1,11 +1,11 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "analysis/ortho.h"
-#include "gis/raster_output.h"
+#include "gis/image_stream.h"
 #include "pipeline/products_phase.h"
 
 namespace pyroscene::pipeline {
@@ -25,36 +25,32 @@ enum GeolocationPlane {
 /// Positions of the planes in truth.tif that products use.
 enum TruthPlane { kFlame, kFront, kScar, kBackground, kSmoke, kGroundTemperature, kFlameTemperature, kExitance };
 
-/// One rendered group read back, with its pixels on the map.
+/// One rendered group read back, with its pixels on the map. Radiance and truth stay in their files and are read a plane at a
+/// time.
 struct RenderedImage {
     int samples = 0, lines = 0;
     std::size_t n = 0;
-    gis::ImageFile radiance, geolocation;
-    std::optional<gis::ImageFile> truth;
-    std::vector<double> x_m, y_m;  ///< on the map of the scene, NaN = none
-    double gsd_m = 0.0;            ///< median
+    gis::ImageFile geolocation;
+    std::unique_ptr<gis::ImageStream> radiance, truth;  ///< null when not read, truth also when the scenario has none
+    std::vector<double> x_m, y_m;                       ///< on the map of the scene, NaN = none
+    double gsd_m = 0.0;                                 ///< median
     std::vector<float> pixel_area_m2;
     analysis::ScanLines scans;
 
     [[nodiscard]] std::span<const double> where(GeolocationPlane p) const {
         return std::span(geolocation.pixels).subspan(p * n, n);
     }
-    [[nodiscard]] std::vector<float> truth_plane(std::size_t p) const {
-        return {truth->pixels.begin() + static_cast<std::ptrdiff_t>(p * n),
-                truth->pixels.begin() + static_cast<std::ptrdiff_t>((p + 1) * n)};
-    }
+    [[nodiscard]] std::vector<float> truth_plane(std::size_t p) const { return truth->read_band(static_cast<int>(p) + 1); }
     [[nodiscard]] std::vector<float> radiance_plane(std::size_t band) const {
-        return {radiance.pixels.begin() + static_cast<std::ptrdiff_t>(band * n),
-                radiance.pixels.begin() + static_cast<std::ptrdiff_t>((band + 1) * n)};
+        return radiance->read_band(static_cast<int>(band) + 1);
     }
 };
 
-/// Reads radiance, geolocation and, where the scenario has it, truth of a job. Throws an input error naming a missing file.
+/// Opens radiance, geolocation and, where the scenario has it, truth of a job. Throws an input error naming a missing file.
 RenderedImage read_rendered(const ProductJob& job);
 
-/// The same without radiance and truth, and these two for an image that has only its ground.
+/// The same without radiance and truth.
 RenderedImage read_ground(const ProductJob& job);
-void read_pixels(const ProductJob& job, RenderedImage& r);
 
 /// A round ortho cell near the pixel size: two significant digits.
 double ortho_cell_m(double gsd_m);

@@ -43,12 +43,13 @@ int term_count(const RenderScene& scene) {
     return has_plume(scene) ? kTermCount : kTermCount - kSmokeTermCount;
 }
 
-RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request) {
-    RadianceImage image;
+/// Room for some lines; the values of the image before stay until they are overwritten, all of them.
+void make_room(const RenderScene& scene, const ImageRequest& request, int first_line, int lines, RadianceImage& image) {
     image.samples = request.samples;
-    image.lines = request.lines;
+    image.first_line = first_line;
+    image.lines = lines;
     image.bands = scene.spectral->band_count();
-    const std::size_t pixels = static_cast<std::size_t>(request.samples) * static_cast<std::size_t>(request.lines);
+    const std::size_t pixels = static_cast<std::size_t>(request.samples) * static_cast<std::size_t>(lines);
     const std::size_t cube = pixels * static_cast<std::size_t>(image.bands);
     image.radiance_W_m2_sr_um.resize(cube);
     if (request.terms) {
@@ -61,7 +62,6 @@ RadianceImage empty_image(const RenderScene& scene, const ImageRequest& request)
         plane->resize(pixels);
     }
     if (has_plume(scene)) image.smoke_fraction.resize(pixels);
-    return image;
 }
 
 void write_truth(const PixelTruth& truth, std::size_t at, RadianceImage& image) {
@@ -131,12 +131,13 @@ public:
 
 private:
     static std::size_t index(const RadianceImage& image, int line, int sample) {
-        return static_cast<std::size_t>(line) * static_cast<std::size_t>(image.samples) + static_cast<std::size_t>(sample);
+        return static_cast<std::size_t>(line - image.first_line) * static_cast<std::size_t>(image.samples) +
+               static_cast<std::size_t>(sample);
     }
 
     /// From [pixel][quantity][band] of the tile to [band][line][sample] of the image: runs of a tile's length.
     void write_planes(int line, int begin, int end, RadianceImage& image) const {
-        const std::size_t plane = index(image, image.lines, 0), first = index(image, line, begin);
+        const std::size_t plane = image.coverage.size(), first = index(image, line, begin);
         for (int q = 0; q < quantities_; ++q) {
             float* cube = q == 0 ? image.radiance_W_m2_sr_um.data() : image.terms[static_cast<std::size_t>(q - 1)].data();
             spectral_kernels().transpose(end - begin, bands_, buffer_.data() + static_cast<std::ptrdiff_t>(q) * bands_,
@@ -155,31 +156,51 @@ private:
 
 }  // namespace
 
-RadianceImage render_image(const RenderScene& scene, const GroundIrradiance* flame_light, const ImageRequest& request,
-                           const Monitor& monitor) {
-    check_scene(scene);
-    check_request(request);
-    const PreparedScene prepared(scene, flame_light);
-    RadianceImage image = empty_image(scene, request);
-    std::optional<FireDetail> detail;
-    if (request.parts) {
+struct ImageRenderer::Impl {
+    Impl(const RenderScene& scene, const GroundIrradiance* flame_light, const ImageRequest& wanted, const Monitor& monitor)
+        : request(wanted), prepared(scene, flame_light), progress(monitor, request.lines * tiles_per_line()) {
+        if (!request.parts) return;
         detail.emplace(scene, flame_light);
         if (!std::isfinite(detail->finest_spacing_m(1.0))) detail.reset();  // nothing burns
     }
+    [[nodiscard]] int tiles_per_line() const { return (request.samples + kTileSamples - 1) / kTileSamples; }
 
-    tbb::enumerable_thread_specific<TileRenderer> renderers(
-        [&] { return TileRenderer(prepared, request, detail ? &*detail : nullptr); });
-    Progress progress(monitor, request.lines);
-    tbb::parallel_for(tbb::blocked_range<int>(0, request.lines, 1), [&](const tbb::blocked_range<int>& lines) {
-        TileRenderer& renderer = renderers.local();
-        for (int line = lines.begin(); line != lines.end(); ++line) {
-            for (int sample = 0; sample < request.samples; sample += kTileSamples) {
-                progress.stop_if_cancelled();
-                renderer.render(line, sample, std::min(sample + kTileSamples, request.samples), image);
-            }
-            progress.advance();
+    const ImageRequest& request;
+    const PreparedScene prepared;
+    std::optional<FireDetail> detail;
+    Progress progress;
+    tbb::enumerable_thread_specific<TileRenderer> renderers{
+        [this] { return TileRenderer(prepared, request, detail ? &*detail : nullptr); }};
+};
+
+ImageRenderer::ImageRenderer(const RenderScene& scene, const GroundIrradiance* flame_light, const ImageRequest& request,
+                             const Monitor& monitor) {
+    check_scene(scene);
+    check_request(request);
+    impl_ = std::make_unique<Impl>(scene, flame_light, request, monitor);
+}
+
+ImageRenderer::~ImageRenderer() = default;
+
+void ImageRenderer::render(int first, int count, RadianceImage& out) {
+    Impl& s = *impl_;
+    make_room(s.prepared.scene, s.request, first, count, out);
+    const int across = s.tiles_per_line();
+    tbb::parallel_for(tbb::blocked_range<int>(0, count * across, 1), [&](const tbb::blocked_range<int>& tiles) {
+        TileRenderer& renderer = s.renderers.local();
+        for (int tile = tiles.begin(); tile != tiles.end(); ++tile) {
+            s.progress.stop_if_cancelled();
+            const int sample = tile % across * kTileSamples;
+            renderer.render(first + tile / across, sample, std::min(sample + kTileSamples, s.request.samples), out);
+            s.progress.advance();
         }
     });
+}
+
+RadianceImage render_image(const RenderScene& scene, const GroundIrradiance* flame_light, const ImageRequest& request,
+                           const Monitor& monitor) {
+    RadianceImage image;
+    ImageRenderer(scene, flame_light, request, monitor).render(0, request.lines, image);
     return image;
 }
 

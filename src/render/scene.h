@@ -171,6 +171,7 @@ struct ImageRequest {
 /// What one image holds before the detector. Planes are [line][sample], cubes [band][line][sample]; NaN where nothing is hit.
 struct RadianceImage {
     int samples = 0, lines = 0, bands = 0;
+    int first_line = 0;                           ///< place of the first line held in the image asked for
     Buffer<float> radiance_W_m2_sr_um;            ///< [band][line][sample], noise-free
     std::array<Buffer<float>, kTermCount> terms;  ///< each as radiance, empty when not asked for (or no plume)
     Buffer<double> hit_x_m, hit_y_m, hit_z_m;     ///< PSF-weighted mean ground point, scene frame
@@ -183,7 +184,23 @@ struct RadianceImage {
     Buffer<float> radiant_exitance_W_m2;  ///< true FRP per ground area: flame + front + (scar - ambient)
 };
 
-/// The image. Bit-identical for any thread count. Throws Cancelled when the monitor asks.
+/// Renders an image some lines at a time, so that memory need not hold all of it. Bit-identical for any thread count and however
+/// the image is cut.
+class ImageRenderer {
+public:
+    /// All that is handed over must outlive this. Throws an input error for a scene or a request that cannot be rendered.
+    ImageRenderer(const RenderScene& scene, const GroundIrradiance* flame_light, const ImageRequest& request,
+                  const Monitor& monitor);
+    ~ImageRenderer();
+    /// Lines [first, first + count) of the request; `out` may be used again. Throws Cancelled when the monitor asks.
+    void render(int first, int count, RadianceImage& out);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The whole image at once.
 RadianceImage render_image(const RenderScene& scene, const GroundIrradiance* flame_light, const ImageRequest& request,
                            const Monitor& monitor = {});
 

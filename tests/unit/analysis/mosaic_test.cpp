@@ -27,13 +27,20 @@ struct Image {
 
 const MapGrid kGrid{8, 4, 0.0, 4.0, 1.0, ""};
 
-Mosaic merge(const std::vector<Image>& images, MosaicRule rule) {
-    auto mosaic = empty_mosaic(kGrid, 1);
-    for (std::size_t k = 0; k < images.size(); ++k) {
-        const auto& i = images[k];
-        const auto lookup = ortho_lookup(kGrid, 4, 4, i.x_m, i.y_m, i.z_m);
-        add_to_mosaic(mosaic, {lookup, 4, 4, i.value, i.zenith_deg, i.time_s}, rule, static_cast<int>(k) + 1);
+/// The mosaic and its only band.
+struct Merged : Mosaic {
+    std::vector<float> pixels;
+};
+
+Merged merge(const std::vector<Image>& images, MosaicRule rule) {
+    Merged mosaic{empty_mosaic(kGrid), std::vector<float>(kGrid.size(), std::nanf(""))};
+    std::vector<OrthoLookup> lookups;
+    for (const auto& i : images) {
+        lookups.push_back(ortho_lookup(kGrid, 4, 4, i.x_m, i.y_m, i.z_m));
+        add_to_mosaic(mosaic, {lookups.back(), 4, 4, i.zenith_deg, i.time_s}, rule, static_cast<int>(lookups.size()));
     }
+    for (std::size_t k = 0; k < images.size(); ++k)
+        fill_from_member(mosaic, {lookups[k], 4, 4, {}, {}}, static_cast<int>(k) + 1, images[k].value, mosaic.pixels);
     return mosaic;
 }
 
