@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <span>
 
 #include "base/constants.h"
@@ -94,6 +95,34 @@ TEST(Image, BytesDoNotDependOnTheNumberOfThreads) {
         for (std::size_t t = 0; t < image1.terms.size(); ++t) EXPECT_TRUE(same_bytes(image1.terms[t], image4.terms[t])) << t;
         EXPECT_TRUE(same_bytes(image1.flame_fraction, image4.flame_fraction));
         EXPECT_TRUE(same_bytes(image1.radiant_exitance_W_m2, image4.radiant_exitance_W_m2));
+    }
+}
+
+TEST(Image, IsTheSameInLinesAndAtOnce) {
+    const TestScene test = small_fire();
+    const auto scene = test.scene();
+    const auto request = nadir_request(70, 55);
+    const auto whole = render::render_image(scene, nullptr, request);
+    render::ImageRenderer renderer(scene, nullptr, request, {});
+    render::RadianceImage lines;  // used again and again, for fewer lines at the end
+    const std::size_t n = whole.coverage.size();
+    for (int first = 0; first < 55; first += 16) {
+        const int count = std::min(16, 55 - first);
+        renderer.render(first, count, lines);
+        ASSERT_EQ(lines.first_line, first);
+        const std::size_t part = static_cast<std::size_t>(count) * 70, at = static_cast<std::size_t>(first) * 70;
+        ASSERT_EQ(lines.coverage.size(), part);
+        const auto same = [&](const auto& some, const auto& all, std::size_t planes) {
+            bool equal = some.size() == part * planes;
+            for (std::size_t b = 0; b < planes && equal; ++b)
+                equal = std::memcmp(&some[b * part], &all[b * n + at], part * sizeof(some[0])) == 0;
+            return equal;
+        };
+        const auto bands = static_cast<std::size_t>(whole.bands);
+        EXPECT_TRUE(same(lines.radiance_W_m2_sr_um, whole.radiance_W_m2_sr_um, bands)) << first;
+        EXPECT_TRUE(same(lines.terms[0], whole.terms[0], bands)) << first;
+        EXPECT_TRUE(same(lines.hit_z_m, whole.hit_z_m, 1)) << first;
+        EXPECT_TRUE(same(lines.radiant_exitance_W_m2, whole.radiant_exitance_W_m2, 1)) << first;
     }
 }
 

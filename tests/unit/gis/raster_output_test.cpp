@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/random.h"
+#include "gis/tiff_writer.h"
 #include "unit/gis/written_raster.h"
 
 namespace pyroscene::gis {
@@ -138,6 +139,62 @@ TEST(GeoTiff, TheFileIsTheSameForAnyNumberOfThreads) {
         EXPECT_TRUE(read_text_file(folder / "c1") == read_text_file(folder / "c2"));
         EXPECT_TRUE(read_text_file(folder / "c1") == read_text_file(folder / "c3"));
     }
+}
+
+TEST(GeoTiff, TheFileIsTheSameInPartsAndAtOnce) {
+    const TempFolder folder;
+    OutputRaster raster = two_bands(300, 250);
+    raster.tile_rows = 100;  // three tiles of 96
+    const auto pixels = two_bands_of_pixels(300, 250);
+    write_geotiff(folder / "whole.tif", raster, std::span<const float>(pixels));
+    TiffWriter rows(folder / "rows.tif", raster), bands(folder / "bands.tif", raster);
+    ASSERT_EQ(rows.tile_rows(), 96);
+    EXPECT_EQ(folder.entries(), 3);  // two of them under temporary names
+    std::vector<float> part;
+    for (int first = 0; first < 250; first += 96) {
+        const int count = std::min(96, 250 - first);
+        part.clear();
+        for (std::size_t b = 0; b < 2; ++b) {
+            const auto from = pixels.begin() + static_cast<std::ptrdiff_t>(b * 75000) + 300 * first;
+            part.insert(part.end(), from, from + 300 * count);
+        }
+        rows.write({0, 2, first, count}, part);
+    }
+    for (std::size_t b : {1U, 0U}) bands.write({b, 1, 0, 250}, std::span(pixels).subspan(b * 75000, 75000));
+    rows.finish();
+    bands.finish();
+    for (const char* name : {"whole.tif", "rows.tif", "bands.tif"}) {
+        const auto ds = open_written(folder / name);
+        ASSERT_TRUE(ds) << name;
+        expect_described(*ds);
+        expect_same_pixels(*ds, pixels);
+        EXPECT_EQ(stored(*ds, 2, "STATISTICS_MEAN"), stored(*open_written(folder / "whole.tif"), 2, "STATISTICS_MEAN"));
+    }
+}
+
+TEST(GeoTiff, RefusesPartsThatDoNotFitAndRastersWithHoles) {
+    const TempFolder folder;
+    OutputRaster raster = two_bands(300, 250);
+    raster.tile_rows = 100;
+    {
+        TiffWriter writer(folder / "a.tif", raster);
+        const std::vector<float> rows(300 * 96, 1.0F);
+        const auto fails = [&](const RasterPart& part) {
+            try {
+                writer.write(part, rows);
+            } catch (const Error&) {
+                return true;
+            }
+            return false;
+        };
+        EXPECT_TRUE(fails({2, 1, 0, 96}));    // no such band
+        EXPECT_TRUE(fails({0, 1, 50, 96}));   // not at a tile
+        EXPECT_TRUE(fails({0, 1, 0, 95}));    // not as many pixels
+        EXPECT_TRUE(fails({0, 1, 192, 96}));  // beyond the last row
+        EXPECT_FALSE(fails({0, 1, 96, 96}));
+        EXPECT_THROW(writer.finish(), Error);
+    }
+    EXPECT_EQ(folder.entries(), 0);
 }
 
 TEST(GeoTiff, KeepsDoublePrecision) {

@@ -60,6 +60,20 @@ TEST(Detector, NoiseHasTheStatedSpreadAndDoesNotDependOnOrder) {
     EXPECT_NE(through(band, {40.0f}, nullptr, {.seed = 8})[0], first[0]);
 }
 
+TEST(Detector, APlaneInPartsDrawsTheSameNoise) {
+    Band band = mwir();
+    band.noise = {.kind = Noise::Kind::SignalToNoise, .value = 20.0, .at_radiance = 10.0};
+    std::vector<float> whole(100, 3.0F), parts = whole;
+    std::vector<std::uint8_t> flags(100);
+    const RandomKey key{7, 8, 9};
+    apply_detector(band, key, whole, flags);
+    for (const std::size_t first : {60U, 0U, 30U})
+        apply_detector(band, key, std::span(parts).subspan(first, first == 60 ? 40 : 30),
+                       std::span(flags).subspan(first, first == 60 ? 40 : 30), first);
+    EXPECT_EQ(whole, parts);
+    EXPECT_NE(whole[0], whole[60]);
+}
+
 TEST(Detector, ClipsCountsAndFlags) {
     Band band = mwir();
     band.saturation_radiance_W_m2_sr_um = 64.0;
