@@ -16,7 +16,7 @@ struct RasterPart {
 };
 
 /// Writes a tiled, compressed GeoTIFF part by part, so that memory holds a part and never the raster: a band at a time, or
-/// some rows of all bands. The file is the same whatever the parts, appears when it is finished, and is not there without.
+/// some rows of all bands. Pixels and descriptions are the same whatever the parts; the file appears when it is finished.
 /// Not for several threads at once.
 class TiffWriter {
 public:

@@ -141,7 +141,7 @@ TEST(GeoTiff, TheFileIsTheSameForAnyNumberOfThreads) {
     }
 }
 
-TEST(GeoTiff, TheFileIsTheSameInPartsAndAtOnce) {
+TEST(GeoTiff, RasterIsTheSameInPartsAndAtOnce) {
     const TempFolder folder;
     OutputRaster raster = two_bands(300, 250);
     raster.tile_rows = 100;  // three tiles of 96
