@@ -18,7 +18,7 @@
 #include "gis/geodesy.h"
 #include "gis/image_stream.h"
 #include "gis/pixel_positions.h"
-#include "gis/raster_output.h"
+#include "gis/tiff_writer.h"
 
 namespace {
 
@@ -98,12 +98,16 @@ void write_swath(const fs::path& folder) {
 
 std::vector<double> write_ours(const fs::path& folder, bool cog) {
     gis::ImageStream stream(folder / "cube.img");
-    std::vector<float> pixels(static_cast<std::size_t>(kCubeSamples) * kCubeLines * kCubeBands);
-    stream.read(0, kCubeLines, pixels);
-    if (cog)
-        gis::write_cog(folder / "ours_cog.tif", cube_raster(), std::span<const float>(pixels));
-    else
-        gis::write_geotiff(folder / "ours.tif", cube_raster(), std::span<const float>(pixels));
+    if (cog) {
+        gis::CogWriter out(folder / "ours_cog.tif", cube_raster());
+        for (int b = 0; b < kCubeBands; ++b) out.write_band(static_cast<std::size_t>(b), stream.read_band(b + 1));
+        out.finish();
+    } else {
+        gis::TiffWriter out(folder / "ours.tif", cube_raster());
+        for (int b = 0; b < kCubeBands; ++b)
+            out.write({static_cast<std::size_t>(b), 1, 0, kCubeLines}, stream.read_band(b + 1));
+        out.finish();
+    }
     return {};
 }
 
@@ -125,14 +129,12 @@ std::vector<double> map_ours(const fs::path& folder) {
     const auto lookup = analysis::ortho_lookup(grid, kSamples, kLines, x_m, y_m, level, {kLinesPerScan, 0});
     auto out = raster(grid.cols, grid.rows, kBands);
     out.grid = grid;
-    std::vector<float> pixels;
-    pixels.reserve(grid.size() * kBands);
+    gis::TiffWriter map(folder / "map_ours.tif", out);
     gis::ImageStream stream(folder / "swath.tif");
-    for (int b = 1; b <= kBands; ++b) {
-        const auto plane = analysis::ortho_resample(lookup, kSamples, kLines, stream.read_band(b), true);
-        pixels.insert(pixels.end(), plane.begin(), plane.end());
-    }
-    gis::write_geotiff(folder / "map_ours.tif", out, std::span<const float>(pixels));
+    for (int b = 0; b < kBands; ++b)
+        map.write({static_cast<std::size_t>(b), 1, 0, grid.rows},
+                  analysis::ortho_resample(lookup, kSamples, kLines, stream.read_band(b + 1), true));
+    map.finish();
     return {};
 }
 
