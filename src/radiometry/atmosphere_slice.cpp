@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "radiometry/planck.h"
 
 namespace pyroscene::radiometry {
 namespace {
@@ -34,6 +35,15 @@ double absorptance(double tau) noexcept { return std::max(1.0 - tau, kSmallestAb
 double scale_height_coordinate(double altitude_km) noexcept { return -std::expm1(-altitude_km / 4.0); }
 
 double secant_of_degrees(double angle_deg) noexcept { return 1.0 / std::cos(angle_deg * kDegree_rad); }
+
+/// Between two sources of thermal radiation by their temperatures: what an opaque path sends is B of the air before the
+/// sensor, whose temperature is far nearer to linear than its radiance. Nearly dark ones linearly.
+double mix_thermal(double lambda_um, double low, double high, double fraction) noexcept {
+    constexpr double kDark = 1e-9;
+    if (fraction == 0.0 || !(low > kDark && high > kDark)) return mix(low, high, fraction);
+    return planck_radiance(lambda_um,
+                           mix(brightness_temperature(lambda_um, low), brightness_temperature(lambda_um, high), fraction));
+}
 
 double exp_or_zero(double ln_value, double smallest) noexcept {
     const double value = std::exp(ln_value);
@@ -96,7 +106,8 @@ void TableSlice::fill_view_node(const AtmosphereTable& t, std::size_t v, LambdaR
                               mix(ln_tau(at.height_u.low), ln_tau(at.height_u.high), at.height_u.fraction));
         node.diffuse_transmittance.push_back(
             at.above_ground * mix(diffuse_up(at.height_u.low), diffuse_up(at.height_u.high), at.height_u.fraction));
-        node.thermal_source.push_back(mix(thermal(at.height.low), thermal(at.height.high), at.height.fraction));
+        node.thermal_source.push_back(
+            mix_thermal(t.wavelength_um[l], thermal(at.height.low), thermal(at.height.high), at.height.fraction));
         node.ln_correlation.push_back(at.above_ground *
                                       mix(correlation(at.height.low), correlation(at.height.high), at.height.fraction));
         for (std::size_t r = 0; r < 3; ++r) {

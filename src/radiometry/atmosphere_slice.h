@@ -28,7 +28,7 @@ struct PathTerms {
 };
 
 /// A table reduced to one sensor altitude and one sun zenith angle, for all its view angles. Scheme of
-/// data/atmosphere/README.md: ln tau and t_d in u = 1 - exp(-h / 4 km), sources and ln C in ln h, in the secant of the sun
+/// data/atmosphere/README.md: ln tau and t_d in u = 1 - exp(-h / 4 km), sources (the thermal one by its brightness temperature) and ln C in ln h, in the secant of the sun
 /// zenith; E_dif in its cosine. Below the lowest altitude node tau, C and t_d go to 1, 1 and 0 at the ground and the sources
 /// keep their value; above the highest one the table is clamped.
 class TableSlice {

@@ -136,6 +136,18 @@ void append_view(ViewAtmosphere& out, const PathTerms& path, const Setting& s) {
     }
 }
 
+/// Beer's law between the view nodes: air that hardly lets through anything is no straight line in the secant.
+void set_transmittance_steps(ViewAtmosphere& out) {
+    constexpr float kLeast = -6.0F;
+    const auto count = static_cast<std::size_t>(out.lambda_count());
+    auto& step = out.ln_transmittance_step;
+    step.assign(out.transmittance.size(), 0.0F);
+    for (std::size_t i = 0; i + count < step.size(); ++i) {
+        const float here = out.transmittance[i], next = out.transmittance[i + count];
+        if (here > 0.0F && next > 0.0F) step[i] = std::max(std::log(next / here), kLeast);
+    }
+}
+
 }  // namespace
 
 ViewAtmosphere make_view_atmosphere(const AtmosphereSet& set, const AtmosphereConditions& conditions,
@@ -165,6 +177,7 @@ ViewAtmosphere make_view_atmosphere(const AtmosphereSet& set, const AtmosphereCo
         if (out.direct_normal_irradiance_W_m2_um.empty()) append_illumination(out, path, setting);
         append_view(out, path, setting);
     }
+    set_transmittance_steps(out);
     return out;
 }
 

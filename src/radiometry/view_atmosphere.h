@@ -15,6 +15,7 @@ struct ViewAtmosphere {
     // View dependent: [node][lambda], nodes ascending in secant of the view zenith angle at the ground.
     std::vector<double> node_secant;
     std::vector<float> transmittance;
+    std::vector<float> ln_transmittance_step;  ///< to the next node (0 at the last), at least -6; empty: one node
     std::vector<float> path_thermal_W_m2_sr_um;
     std::vector<float> path_solar_a0, path_solar_a1, path_solar_a2;  ///< cosine series in relative azimuth [W m-2 sr-1 um-1]
     std::vector<float> solar_correlation;                            ///< C of the reflected beam, 1 in clear windows

@@ -136,6 +136,39 @@ TEST(AtmosphereError, LeavingOutANode) {
     }
 }
 
+// Tables over high ground tell what opaque air sends at altitudes between the nodes of the sea-level table: the ground does not
+// show through, so only the altitude above the sea counts. LOWTRAN itself takes each layer at one temperature (2 K here).
+TEST(AtmosphereError, OpaqueAirBetweenTheAltitudes) {
+    for (const std::string model : {"midlatitude_summer", "us_standard_1976"}) {
+        const AtmosphereSet sea{{load_table("lowtran7_" + model + "_rural23_ground0.nc")}};
+        Error all;
+        for (int ground_km = 1; ground_km <= 3; ++ground_km) {
+            const AtmosphereSet high{
+                {load_table("lowtran7_" + model + "_rural23_ground" + std::to_string(ground_km) + ".nc")}};
+            for (const double above_km : {0.5, 1.0, 2.0, 3.0, 4.2, 6.0, 10.0, 20.0}) {
+                AtmospherePoint p;
+                p.conditions.sun_zenith_rad = 2.0;
+                p.conditions.sensor_altitude_agl_m = 1e3 * above_km;
+                p.conditions.ground_elevation_m = 1e3 * ground_km;
+                const auto truth = evaluate(high, p);
+                p.conditions.sensor_altitude_agl_m = 1e3 * (above_km + ground_km);
+                p.conditions.ground_elevation_m = 0.0;
+                const auto found = evaluate(sea, p);
+                Error e;
+                for (std::size_t l = 0; l < truth.wavelength_um.size(); ++l)
+                    if (truth.wavelength_um[l] > 2.5 && truth.transmittance[l] < 1e-4)
+                        e.add(found.path_thermal[l] / truth.path_thermal[l] - 1.0);
+                if (e.n == 0) continue;
+                std::printf("%s, opaque air at %5.2f km: L_pt %.3f / %.3f of %d samples\n", model.c_str(),
+                            above_km + ground_km, e.mean(), e.largest, e.n);
+                all.add(e.mean());
+            }
+        }
+        std::printf("%s: mean %.4f\n", model.c_str(), all.mean());
+        EXPECT_LT(all.mean(), 0.065);
+    }
+}
+
 /// Tables left out whole: visibility 23 km from 5 and 50, elevation 1 and 2 km from their neighbours.
 TEST(AtmosphereError, LeavingOutATable) {
     const std::string name = "lowtran7_midlatitude_summer_rural";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,25 @@ TEST(ViewAtmosphere, FollowsTheSchemeBetweenItsNodes) {
             }
         }
     }
+}
+
+// Where almost nothing comes through, what does still follows Beer's law between the nodes: all samples of the table, angles
+// between its own, down to a billionth.
+TEST(ViewAtmosphere, OpaqueAirFollowsBeersLawBetweenItsNodes) {
+    const auto grid = monochromatic_grid(summer().tables.front().wavelength_um);
+    const auto c = conditions(3000.0, 40.0);
+    const auto atmosphere = make_view_atmosphere(summer(), c, grid, constant(grid, 0.0));
+    double largest = 0.0;
+    for (double view_deg : {7.0, 21.0, 37.0, 49.0, 58.0, 63.0}) {
+        const auto view = view_of(atmosphere, view_deg, 70.0);
+        const auto exact = evaluate(summer(), {c, view_deg * kDegree_rad, 70.0 * kDegree_rad});
+        for (std::size_t l = 0; l < exact.transmittance.size(); ++l)
+            if (exact.transmittance[l] > 1e-9)
+                largest =
+                    std::max(largest, std::abs(static_cast<double>(view.transmittance[l]) / exact.transmittance[l] - 1.0));
+    }
+    std::printf("transmittance between view nodes, down to 1e-9: largest relative error %.1e\n", largest);
+    EXPECT_LT(largest, 1e-3);
 }
 
 TEST(ViewAtmosphere, IlluminationAtOneWavelength) {
