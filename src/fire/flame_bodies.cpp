@@ -31,7 +31,7 @@ FlameBody body_of(const FlameField& flame, const FlameField::Brick& brick, int f
         for (const int step : {-1, 1}) {
             if (is_air(step, 0, 0)) body.area_m2 += face_m2[0];
             if (is_air(0, step, 0)) body.area_m2 += face_m2[1];
-            if (is_air(0, 0, step)) body.area_m2 += face_m2[2];
+            if (is_air(0, 0, step)) body.area_m2 += fill * face_m2[2];  // columns of flame stand on a share of the voxel
         }
     }
     if (!(weights > 0.0)) return {};

@@ -11,7 +11,7 @@ namespace pyroscene::fire {
 struct FlameBody {
     Vec3 middle_m;           ///< weighted with fill T^4
     double filled_m3 = 0.0;  ///< sum of fill times voxel volume
-    /// Its share by volume of the faces towards air of the brick and the bricks around it, so that flame cut into bricks keeps
+    /// Its share by volume of the faces (of horizontal ones the filled part: flame stands in columns, fronts are strips) towards air of the brick and the bricks around it, so that flame cut into bricks keeps
     /// its chord and its whole surface; at least that of the sphere that holds the same gas.
     double area_m2 = 0.0;
     double T_K = 0.0;  ///< weighted with fill T^4

@@ -32,6 +32,9 @@ double front_power_W(const fire::SurfaceField& surface) {
     return area * fourth_power(surface.front_temperature_K) * kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
 }
 
+/// Flame, and what of the front's light it does not take up again on the way: the flame stands over the front.
+double radiated_W(double front_W, const FlamePower& flame) { return front_W * (1.0 - flame.emissivity) + flame.flame_W(); }
+
 /// Fuel that burnt up to the last frame [kg].
 double fuel_consumed_kg(const scenario::RasterSource& source, const inputs::SceneInputs& in, const fire::FireState& last) {
     const auto bands = gis::read_info(source.files.back()).bands.size();
@@ -79,7 +82,7 @@ void record_energy(RunReport& report, const scenario::Scenario& scenario, const 
     report.record(prefix + "flame_gas_W", flame.gas_W);
     report.record(prefix + "smoke_W", flame.smoke_W);
     if (!(released_W > 0.0)) return;
-    const double fraction = (front_W + flame.flame_W()) / released_W;
+    const double fraction = radiated_W(front_W, flame) / released_W;
     report.record(prefix + "radiant_fraction", fraction);
     constexpr double kImplausible = 0.35;
     if (fraction > kImplausible && scenario.physics == fire::Physics::Default)
@@ -93,13 +96,12 @@ void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario
                            FireScene& scene, const std::string& acquisition_id) {
     const auto& flame = scenario.flame;
     if (!flame.radiant_fraction) return;
-    const double wanted_W = *flame.radiant_fraction * state.heat_release_W - front_power_W(scene.surface);
-    if (!(wanted_W > 0.0) || scene.flame.empty()) {
+    const double wanted_W = *flame.radiant_fraction * state.heat_release_W, front_W = front_power_W(scene.surface);
+    const auto give_up = [&](const char* why) {
         report.warn(fmt::format("acquisition '{}': flame.radiant_fraction {} cannot be met: {}", acquisition_id,
-                                *flame.radiant_fraction,
-                                scene.flame.empty() ? "there is no flame to scale" : "the front alone radiates more"));
-        return;
-    }
+                                *flame.radiant_fraction, why));
+    };
+    if (scene.flame.empty()) return give_up("there is no flame to scale");
     const auto prefix = "energy/" + acquisition_id + "/";
     const auto trial = scene;  // as the scenario has it
     const auto scaled = [&](double factor) -> FireScene& {
@@ -116,7 +118,11 @@ void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario
     const auto [low_K, high_K] = trial.flame.temperature_range_K();
     double low = flame.adjust_temperature ? 200.0 / low_K : kLeastSoot,
            high = flame.adjust_temperature ? 3500.0 / high_K : kMostSoot;
-    const auto power_W = [&](double factor) { return flame_power(scenario, scaled(factor)).flame_W(); };
+    const auto power_W = [&](double factor) { return radiated_W(front_W, flame_power(scenario, scaled(factor))); };
+    if (front_W * (1.0 - flame_power(scenario, scaled(low)).emissivity) >= wanted_W) {
+        scene = trial;
+        return give_up("the front alone radiates more");
+    }
     const bool too_much = power_W(low) > wanted_W, too_little = power_W(high) < wanted_W;
     for (int i = 0; i < 60 && !too_much && !too_little && high > low * (1.0 + 1e-7); ++i) {
         const double middle = std::sqrt(low * high);

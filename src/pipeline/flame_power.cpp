@@ -115,7 +115,13 @@ double smoke_power_W(const scenario::Scenario& scenario, const FireScene& scene)
 }  // namespace
 
 FlamePower flame_power(const scenario::Scenario& scenario, const FireScene& scene) {
-    return {soot_power_W(scenario.flame, scene), gas_power_W(scenario.flame, scene), smoke_power_W(scenario, scene)};
+    FlamePower power{soot_power_W(scenario.flame, scene), gas_power_W(scenario.flame, scene),
+                     smoke_power_W(scenario, scene)};
+    double black_W = 0.0;
+    for (const auto& body : fire::flame_bodies(scene.flame))
+        black_W += kStefanBoltzmann_W_m2_K4 * body.area_m2 * fourth_power(body.T_K);
+    if (black_W > 0.0) power.emissivity = std::min(1.0, power.flame_W() / black_W);
+    return power;
 }
 
 }  // namespace pyroscene::pipeline

@@ -24,8 +24,8 @@ TEST(FlameBodies, ABoxHasItsVolumeSurfaceAndMeanChord) {
     const auto bodies = flame_bodies(box(8, 4, 6, 0.5F));  // 8 x 8 x 3 m
     ASSERT_EQ(bodies.size(), 1U);
     EXPECT_NEAR(bodies[0].filled_m3, 0.5 * 192.0, 1e-9);
-    EXPECT_NEAR(bodies[0].area_m2, 2.0 * (64.0 + 24.0 + 24.0), 1e-9);
-    EXPECT_NEAR(bodies[0].chord_m(), 4.0 * 96.0 / 224.0, 1e-12);
+    EXPECT_NEAR(bodies[0].area_m2, 2.0 * (0.5 * 64.0 + 24.0 + 24.0), 1e-9);
+    EXPECT_NEAR(bodies[0].chord_m(), 4.0 * 96.0 / 160.0, 1e-12);
     EXPECT_NEAR(bodies[0].middle_m.x, 14.0, 1e-9);
     EXPECT_NEAR(bodies[0].middle_m.y, 24.0, 1e-9);
     EXPECT_NEAR(bodies[0].middle_m.z, 1.5, 1e-9);
