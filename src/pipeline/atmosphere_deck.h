@@ -35,7 +35,7 @@ DeckGeometry deck_geometry(const scenario::Scenario& scenario, const std::string
 std::vector<DeckRun> deck_runs(const DeckGeometry& geometry);
 
 /// Texts of input files, by file name. \param code modtran6 (JSON), modtran5 (tape5) or libradtran (uvspec inputs and a
-/// script). Each deck has a list runs.csv for import-atmosphere. Throws an input error for an unknown code.
+/// script). A list runs.csv for import-atmosphere goes with modtran6 and libradtran; MODTRAN 5 echoes its cards. Throws an input error for an unknown code.
 std::vector<std::pair<std::string, std::string>> deck_files(const DeckGeometry& geometry, const std::string& code);
 
 /// Writes the deck of an acquisition into a folder and returns the names of its files.

@@ -94,7 +94,11 @@ std::string tape7_text(const SimulatedRun& run) {
     text += fmt::format("{:10.5f}{:10.5f}   0.00000   0.00000   0.00000   0.00000   0.00000   0.00000\n",
                         run.relative_azimuth_deg, sun_at_sensor_deg(run));
     text += "     640.0   28700.0      10.0      20.0NW              \n    0\n";
-    text +=
+    return text + tape7_table(run);
+}
+
+std::string tape7_table(const SimulatedRun& run) {
+    std::string text =
         "    FREQ  TOT_TRANS  PTH_THRML  THRML_SCT  SURF_EMIS   SOL_SCAT  SING_SCAT  GRND_RFLT  DRCT_RFLT  TOTAL_RAD  "
         "REF_SOL  "
         "SOL@OBS   DEPTH DIR_EM    TOA_SUN BBODY_T[K]\n";

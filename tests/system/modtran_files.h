@@ -28,6 +28,8 @@ SimulatedRun simulate(double sensor_altitude_km, double view_zenith_deg, double 
                       double albedo);
 
 std::string tape7_text(const SimulatedRun& run);
+/// Its table alone, without the echo of the cards.
+std::string tape7_table(const SimulatedRun& run);
 std::string modtran_csv_text(const SimulatedRun& run);
 std::string modtran_json_text(const SimulatedRun& run);
 
