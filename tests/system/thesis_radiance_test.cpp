@@ -6,14 +6,12 @@
 
 #include <cmath>
 #include <fstream>
-#include <functional>
 
 #include "base/constants.h"
-#include "base/files.h"
-#include "gis/netcdf_input.h"
 #include "radiometry/atmosphere.h"
 #include "radiometry/planck.h"
 #include "radiometry/sun.h"
+#include "system/narrow_camera.h"
 #include "system/support.h"
 
 namespace pyroscene::test {
@@ -21,36 +19,8 @@ namespace {
 
 constexpr double kReflectance = 0.3, kAmbient_K = 307.15, kFront_K = 1100.0, kAltitude_m = 3000.0;
 
-struct Band {
-    const char* id;
-    double lower_um, upper_um;
-};
-constexpr Band kBands[] = {{"RED", 0.64, 0.68}, {"SWIR", 1.55, 1.75}, {"MWIR", 3.8, 4.05}, {"LWIR", 10.2, 11.4}};
-
-void write_camera(const std::filesystem::path& file) {
-    std::ofstream out(file);
-    out << R"(schema: pyroscene-sensor/1
-id: narrow-camera
-name: Narrow camera
-platform: {type: airborne, name: generic, altitude_agl_m: 3000, ground_speed_m_s: 30.0}
-geometry:
-  scan_type: framing
-  frame_interval_s: 2.0
-  boresight_offset_deg: [0.0, 0.0, 0.0]
-  groups:
-    main: {nx: 40, ny: 40, focal_length_mm: 60.0, pixel_pitch_um: 60.0, principal_point_px: [19.5, 19.5], distortion: {model: brown, k: [0.0, 0.0, 0.0], p: [0.0, 0.0]}}
-psf:
-  along_scan: {shape: none}
-  along_track: {shape: none}
-bands:
-)";
-    for (const auto& b : kBands)
-        out << "- {id: " << b.id << ", group: main, center_um: " << 0.5 * (b.lower_um + b.upper_um) << ", edges_um: ["
-            << b.lower_um << ", " << b.upper_um << "], srf: nominal, srf_shape: boxcar}\n";
-}
-
 gis::ImageFile run_thesis(const ScratchFolder& folder, gis::ImageFile& geolocation) {
-    write_camera(folder / "camera.yaml");
+    write_narrow_camera(folder / "camera.yaml");
     const auto inputs = source_folder() / "scenarios" / "furnace";
     std::ofstream(folder / "scenario.yaml")
         << "pyroscene: 1\nname: equation\ninputs:\n  terrain:   {file: " << (inputs / "dem.tif").string()
@@ -67,31 +37,12 @@ gis::ImageFile run_thesis(const ScratchFolder& folder, gis::ImageFile& geolocati
 
 double value(const gis::ImageFile& image, const std::string& name, std::size_t pixel) { return plane(image, name)[pixel]; }
 
-/// Mean over a box of a product of quantities that are linear between the table's samples.
-double band_mean(
-    const radiometry::AtmosphericTerms& air, const Band& band,
-    const std::function<double(double lambda_um, const std::function<double(const std::vector<double>&)>&)>& f) {
-    constexpr int kSteps = 20000;
-    double sum = 0.0;
-    std::size_t i = 0;
-    for (int s = 0; s < kSteps; ++s) {
-        const double lambda_um = band.lower_um + (s + 0.5) * (band.upper_um - band.lower_um) / kSteps;
-        while (i + 2 < air.wavelength_um.size() && air.wavelength_um[i + 1] < lambda_um) ++i;
-        const double part = (lambda_um - air.wavelength_um[i]) / (air.wavelength_um[i + 1] - air.wavelength_um[i]);
-        sum += f(lambda_um, [&](const std::vector<double>& v) { return std::lerp(v[i], v[i + 1], part); });
-    }
-    return sum / kSteps;
-}
-
 TEST(ThesisPhysics, ReproducesEquation444TermByTerm) {
     const ScratchFolder folder;
     gis::ImageFile geolocation;
     const auto truth = run_thesis(folder, geolocation);
     ASSERT_FALSE(truth.pixels.empty());
-    const auto set = radiometry::make_atmosphere_set(
-        "midlatitude_summer", 23.0, 0.0, [](const std::string& file, const std::string& variable) {
-            return gis::read_netcdf_variable(data_folder() / "atmosphere" / file, variable).values;
-        });
+    const auto set = shipped_atmosphere(0.0);
     int fronts = 0, backgrounds = 0;
     for (const std::size_t pixel : {std::size_t{3 * 40 + 20}, std::size_t{20 * 40 + 20}}) {
         const bool front = value(truth, "fraction_front", pixel) > 0.5;
@@ -104,7 +55,7 @@ TEST(ThesisPhysics, ReproducesEquation444TermByTerm) {
             (value(geolocation, "sun_azimuth", pixel) - value(geolocation, "view_azimuth", pixel) - 180.0) * kDegree_rad;
         const auto air = radiometry::evaluate(set, {conditions, view_zenith, azimuth});
         const double mu = std::cos(sun_zenith), r = kReflectance, target_K = front ? kFront_K : kAmbient_K;
-        for (const auto& band : kBands) {
+        for (const auto& band : kNarrowBands) {
             SCOPED_TRACE(std::string(band.id) + (front ? " front" : " background"));
             const auto mean = [&](const auto& f) { return band_mean(air, band, f); };
             // Sky light on the ground: that of black surroundings, and what surroundings of albedo r send up and air returns.
