@@ -73,6 +73,7 @@ public:
           light_(shared),
           mix_(tables),
           terrain_(tables.stride),
+          smoky_sky_(tables),
           through_(static_cast<std::size_t>(tables.stride)),
           opacity_(through_.size()),
           of_moment_(through_.size()) {}
@@ -97,6 +98,7 @@ public:
         const auto open = static_cast<float>(1.0 - hidden_sr / kPi);
         const radiometry::ViewAtmosphere& air = *shared_->scene.atmosphere;
         const SmokeShade shade = out.smoke != nullptr ? out.smoke->at({receiver.x_m, receiver.y_m, 0.0}) : SmokeShade{};
+        if (shade.above > 0.0F) smoky_sky_.look_from(shade);
         const auto sum = [&](std::vector<float>& into, const std::vector<float>& whole, const float* a, const float* b,
                              bool glows) {
             if (into.empty()) return;
@@ -105,7 +107,7 @@ public:
             if (shade.above > 0.0F) {
                 const SmokeSpectra& smoke = tables_->smoke;
                 dimmed_sky_.resize(through_.size());
-                dim_sky(*tables_, shade, (glows ? smoke.thermal_sky : smoke.sky).data(), glows, dimmed_sky_.data());
+                smoky_sky_.dim((glows ? smoke.thermal_sky : smoke.sky).data(), glows, dimmed_sky_.data());
                 sky = dimmed_sky_.data();
             }
             for (std::size_t l = 0; l < static_cast<std::size_t>(light.lambda_count); ++l)
@@ -168,6 +170,7 @@ private:
     ReceiverLight light_;
     GroundMix mix_;
     GroundSpectra terrain_;
+    SmokySky smoky_sky_;
     std::vector<float> through_, opacity_, of_moment_, dimmed_sky_;
 };
 

@@ -8,7 +8,8 @@ GroundMix::GroundMix(const SceneTables& tables)
       kernels_(&spectral_kernels()),
       emission_(static_cast<std::size_t>(tables.materials) * static_cast<std::size_t>(tables.planck.row_count()), 0.0F),
       is_touched_(emission_.size(), 0),
-      reflection_(static_cast<std::size_t>(tables.materials)) {}
+      reflection_(static_cast<std::size_t>(tables.materials)),
+      smoky_sky_(tables) {}
 
 void GroundMix::add(int material, double temperature_K, double weight, const GroundLight& light) {
     const PlanckRows::Lookup found = tables_->planck.at(temperature_K);
@@ -78,8 +79,9 @@ void GroundMix::resolve_shaded(const ShadedPart& part, GroundSpectra& out) {
                               out.part(GroundSpectra::Sun));
     }
     if (part.open == 0.0) return;
+    smoky_sky_.look_from(part.smoke);
     const auto add = [&](const float* sky, bool glows, GroundSpectra::Part into) {
-        dim_sky(t, part.smoke, sky, glows, sky_.data());
+        smoky_sky_.dim(sky, glows, sky_.data());
         kernels_->add_product(t.stride, static_cast<float>(part.open), reflectance, sky_.data(), out.part(into));
     };
     if (t.has_sky) add(t.smoke.sky.data(), false, GroundSpectra::Sky);

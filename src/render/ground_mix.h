@@ -76,6 +76,7 @@ private:
     std::vector<LitPart> lit_;
     std::vector<ShadedPart> shaded_;
     std::vector<float> through_, sky_;
+    SmokySky smoky_sky_;
     float sky_weight_ = 0.0F;
     std::array<float, OpenSky::kCosine.size()> sky_node_weight_{};
 };

@@ -18,49 +18,6 @@ double height_m(const FlameColumns& plume, std::size_t end) {
 }
 double top_m(const FlameColumns& plume) { return height_m(plume, 1); }
 
-/// Columns of a plane layer as seen from the ground.
-struct Shade {
-    std::vector<float> sky, ground, sun;  ///< transmittance, reflectance, irradiance of all sunlight per irradiance
-};
-
-Shade shade_of(const SceneTables& tables, const SmokeShade& shade) {
-    const SpectralKernels& kernels = spectral_kernels();
-    const SmokeDiffusion& diffusion = tables.smoke.diffusion;
-    DiffuseShade at_nodes{};
-    kernels.diffuse_shade(diffusion.nodes, shade.above, shade.to_sun, at_nodes);
-    const auto spread = [&](const float* nodes) {
-        std::vector<float> out(static_cast<std::size_t>(tables.stride), 0.0F);
-        kernels.add_rows(tables.stride, diffusion.weight.data(), tables.stride, DiffusionNodes::kCount, nodes, out.data());
-        return out;
-    };
-    return {spread(at_nodes.sky), spread(at_nodes.ground), spread(at_nodes.sun)};
-}
-
-void dim_sky_diffusely(const SceneTables& tables, const SmokeShade& shade, const float* sky, bool glows, float* out) {
-    const SmokeSpectra& smoke = tables.smoke;
-    const auto pi = static_cast<float>(kPi);
-    const Shade layer = shade_of(tables, shade);
-    const float mu0 = smoke.diffusion.nodes.sun_cosine;
-    for (std::size_t l = 0; l < layer.sky.size(); ++l) {
-        if (glows) {
-            out[l] = layer.sky[l] * sky[l] + layer.ground[l] * pi * smoke.ground_radiance[l];
-            continue;
-        }
-        const float straight = mu0 * std::exp(-smoke.extinction_per_m[l] * shade.to_sun);
-        const float lit = mu0 > 0.0F ? layer.sun[l] / mu0 : 0.0F;
-        out[l] = layer.sky[l] * sky[l] + layer.ground[l] * lit * pi * smoke.ground_lit[l] +
-                 std::max(layer.sun[l] - straight, 0.0F) * smoke.sun[l];
-    }
-    if (!glows) return;
-    const PlanckRows::Lookup warm = tables.planck.at(shade.temperature_K);
-    for (std::size_t l = 0; l < layer.sky.size(); ++l) {
-        float B = 0.0F;
-        for (int j = 0; j < warm.count; ++j)
-            B += warm.weight[static_cast<std::size_t>(j)] * tables.planck.row(warm.row + j)[l];
-        out[l] += (1.0F - layer.sky[l] - layer.ground[l]) * pi * B;
-    }
-}
-
 }  // namespace
 
 double smoke_between(const FlameColumns& plume, Vec3 from_m, Vec3 to_m) {
@@ -127,17 +84,49 @@ SmokeShade SmokeShadow::at(Vec3 ground_m) const noexcept {
     return out;
 }
 
-void dim_sky(const SceneTables& tables, const SmokeShade& shade, const float* sky, bool glows, float* out) {
-    if (!tables.smoke.diffusion.empty()) return dim_sky_diffusely(tables, shade, sky, glows, out);
-    const SpectralKernels& kernels = spectral_kernels();
-    kernels.transmittance(tables.stride, tables.smoke.extinction_per_m.data(), kMeanSlant * shade.above, out);
-    if (!glows) return kernels.product(tables.stride, 1.0F, sky, out, out);
-    const PlanckRows::Lookup warm = tables.planck.at(shade.temperature_K);
-    for (int l = 0; l < tables.stride; ++l) {
+SmokySky::SmokySky(const SceneTables& tables)
+    : tables_(&tables), kernels_(&spectral_kernels()), through_(static_cast<std::size_t>(tables.stride)) {
+    if (diffuse()) back_ = sun_ = through_;
+}
+
+void SmokySky::look_from(const SmokeShade& shade) {
+    shade_ = shade;
+    const SceneTables& t = *tables_;
+    if (!diffuse())
+        return kernels_->transmittance(t.stride, t.smoke.extinction_per_m.data(), kMeanSlant * shade.above, through_.data());
+    const SmokeDiffusion& diffusion = t.smoke.diffusion;
+    DiffuseShade at_nodes{};
+    kernels_->diffuse_shade(diffusion.nodes, shade.above, shade.to_sun, at_nodes);
+    const auto spread = [&](const float* nodes, std::vector<float>& out) {
+        std::fill(out.begin(), out.end(), 0.0F);
+        kernels_->add_rows(t.stride, diffusion.weight.data(), t.stride, DiffusionNodes::kCount, nodes, out.data());
+    };
+    spread(at_nodes.sky, through_);
+    spread(at_nodes.ground, back_);
+    spread(at_nodes.sun, sun_);
+}
+
+void SmokySky::dim(const float* sky, bool glows, float* out) const {
+    const SceneTables& t = *tables_;
+    const SmokeSpectra& smoke = t.smoke;
+    const auto pi = static_cast<float>(kPi);
+    kernels_->product(t.stride, 1.0F, through_.data(), sky, out);
+    const auto add_back = [&](std::size_t l, float ground) { out[l] += back_[l] * pi * ground; };
+    const float mu0 = smoke.diffusion.nodes.sun_cosine;
+    if (!glows && diffuse() && mu0 > 0.0F)
+        for (std::size_t l = 0; l < through_.size(); ++l) {
+            const float straight = mu0 * std::exp(-smoke.extinction_per_m[l] * shade_.to_sun);
+            add_back(l, smoke.ground_lit[l] * sun_[l] / mu0);
+            out[l] += std::max(sun_[l] - straight, 0.0F) * smoke.sun[l];
+        }
+    if (!glows) return;
+    const PlanckRows::Lookup warm = t.planck.at(shade_.temperature_K);
+    for (std::size_t l = 0; l < through_.size(); ++l) {
         float B = 0.0F;
-        for (int j = 0; j < warm.count; ++j)
-            B += warm.weight[static_cast<std::size_t>(j)] * tables.planck.row(warm.row + j)[l];
-        out[l] = out[l] * sky[l] + (1.0F - out[l]) * static_cast<float>(kPi) * B;
+        for (int j = 0; j < warm.count; ++j) B += warm.weight[static_cast<std::size_t>(j)] * t.planck.row(warm.row + j)[l];
+        const float back = diffuse() ? back_[l] : 0.0F;
+        out[l] += (1.0F - through_[l] - back) * pi * B;
+        if (back > 0.0F) add_back(l, smoke.ground_radiance[l]);
     }
 }
 

@@ -32,9 +32,24 @@ private:
     std::vector<SmokeShade> cells_;
 };
 
-/// Irradiance of a sky through smoke:  t E + (1 - t) pi B(T_smoke),  t = exp(-1.66 k column);  B only if `glows`. Of light
-/// scattered more than once  t E + r M + (1 - t - r) pi B  with the layer's own t and r and the ambient ground's exitance M, and
-/// to a sky that does not glow belongs what smoke scatters down of the sun.
-void dim_sky(const SceneTables& tables, const SmokeShade& shade, const float* sky, bool glows, float* out);
+/// Irradiance of a sky through smoke:  t E + (1 - t) pi B(T_smoke),  t = exp(-1.66 k column). Of light scattered more than once
+/// t E + r M + (1 - t - r) pi B  with the layer's own t and r and the ambient ground's exitance M; what smoke scatters down of the
+/// sun belongs to the sunlit sky. One per thread.
+class SmokySky {
+public:
+    explicit SmokySky(const SceneTables& tables);
+
+    void look_from(const SmokeShade& shade);
+    /// Of a sky's irradiance without smoke, after look_from().  \param glows  the thermal sky: smoke has its B and ground its own
+    void dim(const float* sky, bool glows, float* out) const;
+
+private:
+    [[nodiscard]] bool diffuse() const noexcept { return !tables_->smoke.diffusion.empty(); }
+
+    const SceneTables* tables_;
+    const SpectralKernels* kernels_;
+    SmokeShade shade_;
+    std::vector<float> through_, back_, sun_;  ///< [lambda] t, r, and sunlight on level ground per irradiance
+};
 
 }  // namespace pyroscene::render
