@@ -20,9 +20,11 @@ struct PreparedScene {
         if (has_plume(s)) smoke.emplace(s, tables);
     }
     struct Smoke {
-        Smoke(const RenderScene& s, const SceneTables& t) : columns(*s.plume), light(s, t, columns), shadow(s) {}
+        Smoke(const RenderScene& s, const SceneTables& t)
+            : columns(*s.plume), light(s, t, columns), nodes(t, light, s.optics->lambda_um), shadow(s) {}
         FlameColumns columns;
         SmokeLight light;
+        SmokeNodes nodes;
         SmokeShadow shadow;
     };
     const RenderScene& scene;

@@ -6,14 +6,15 @@
 #include "render/mixture_ray.h"
 #include "render/scene_tables.h"
 #include "render/smoke_light.h"
-#include "render/smoke_piece.h"
+#include "render/smoke_nodes.h"
 
 namespace pyroscene::render {
 
 /// A ray through smoke, and flame in it or behind it. One per thread.
 class SmokeRay {
 public:
-    SmokeRay(const SceneTables& tables, const FlameColumns& flame, const FlameColumns& plume, const SmokeLight& light);
+    SmokeRay(const SceneTables& tables, const FlameColumns& flame, const FlameColumns& plume, const SmokeLight& light,
+             const SmokeNodes& nodes);
 
     /// Lists what lies on the way, from `start_m` on; false when it meets no smoke.
     bool march(Vec3 start_m, Vec3 end_m);
@@ -27,16 +28,20 @@ public:
     void emit(float scale, MixtureRay* mixture, const Spectra& out);
 
 private:
-    [[nodiscard]] SmokePiece piece(const MixedPiece& from, float scale, const Spectra& out) const;
-    void light(SmokePiece& piece, double from, double to) const;
+    void add_step(const MixedPiece& piece, double from, double to);
+    void light(SmokeStep& step, double from, double to) const;
+    void send(float scale, const Spectra& out);
 
     const SceneTables* tables_;
     const SpectralKernels* kernels_;
     const FlameColumns *flame_, *plume_;
     const SmokeLight* light_;
+    const SmokeNodes* nodes_;
     Vec3 start_m_, way_m_, direction_;
     std::vector<RaySegment> flame_segments_, smoke_segments_;
     std::vector<MixedPiece> pieces_;
+    std::vector<SmokeStep> steps_;  ///< gathered, not yet sent
+    std::vector<float> at_nodes_;
     std::vector<float> sun_;  ///< irradiance times phase function of this ray
 };
 

@@ -7,20 +7,11 @@ namespace pyroscene::render {
 /// Both versions give the same numbers within rounding; one machine always uses one of them.
 struct PlaneTrace;
 struct MixturePiece;
-struct SmokePiece;
+struct SmokeRun;
 struct DiffusionNodes;
 struct DiffuseColumns;
 struct DiffuseSource;
 struct DiffuseShade;
-
-/// One of the constituents of a piece of ray: absorption spectrum, fill x length, rows and weights of its Planck spectrum.
-struct Emitter {
-    const float* k;
-    float depth;
-    const float* rows;
-    int row_count;  ///< 1 or 4
-    const float* weight;
-};
 
 struct SpectralKernels {
     static constexpr int kLanes = 8;
@@ -32,8 +23,8 @@ struct SpectralKernels {
     /// tau is kept above 1e-20: denormal numbers cost ten times as much.
     void (*emit)(int n, const float* k, float depth, const float* rows, int row_stride, int row_count, const float* weight,
                  float scale, float* tau, float* flame);
-    /// One homogeneous piece with smoke and perhaps flame: see SmokePiece.
-    void (*emit_smoke)(const SmokePiece& piece);
+    /// Consecutive pieces with smoke and perhaps flame: see SmokeRun.
+    void (*emit_smoke)(const SmokeRun& run);
     /// Light scattered more than once: what a piece of smoke sends on, and what reaches the ground below (smoke_diffusion.h).
     void (*diffuse_source)(const DiffusionNodes& nodes, const DiffuseColumns& columns, DiffuseSource& out);
     void (*diffuse_shade)(const DiffusionNodes& nodes, float above, float to_sun, DiffuseShade& out);
