@@ -121,6 +121,7 @@ void smoke(benchmark::State& state) {
         weight(4 * n, 0.25F);
     std::vector<float> tau(n, 1.0F), flame(n, 0.0F), emitted(n, 0.0F), scattered(n, 0.0F),
         at_nodes((render::SmokeRun::kSpectra + 3 * kSteps) * kNodes);
+    const std::vector<unsigned char> glows(n / 8, 1);
     std::vector<int> first, node_of;  // each block of wavelengths between four nodes
     for (int block = 0; block <= n / 8; ++block) {
         first.push_back(4 * block);
@@ -139,7 +140,9 @@ void smoke(benchmark::State& state) {
     render::SmokeRun run;
     run.steps = steps.data();
     run.count = kSteps;
+    run.flame = kind == 3;
     run.flame_light = kind >= 2;
+    run.glows = glows.data();
     run.node = {kNodes, k.data(), k.data(), asymmetry.data(), k.data(), k.data(), k.data(), light.data(), nullptr};
     run.at_nodes = at_nodes.data();
     run.n = n;

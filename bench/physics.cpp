@@ -1,5 +1,5 @@
 // Scene W0 with all physics on (physics_scene.h), printed as rows of the table of scripts/bench.sh.
-//   bench_physics [--runs N]
+//   bench_physics [--runs N] [--sensor wasp|modis-terra|aviris-classic]
 // Reading tables and picking wavelengths (make_spectral_scene of a run) is outside the figures: it is the same for any image.
 
 #include <fmt/format.h>
@@ -102,11 +102,15 @@ void report(const PhysicsTables& tables, const Case& wanted, int runs) {
 int main(int argc, char** argv) {
     using namespace pyroscene::bench;
     int runs = 3;
-    for (int i = 1; i + 1 < argc; ++i)
+    std::string_view only;
+    for (int i = 1; i + 1 < argc; ++i) {
         if (std::string_view(argv[i]) == "--runs") runs = std::atoi(argv[i + 1]);
+        if (std::string_view(argv[i]) == "--sensor") only = argv[i + 1];
+    }
     try {
         const PhysicsTables tables;
-        for (const Case& wanted : kCases) report(tables, wanted, runs);
+        for (const Case& wanted : kCases)
+            if (only.empty() || only == wanted.sensor) report(tables, wanted, runs);
     } catch (const std::exception& e) {
         fmt::print(stderr, "bench_physics: {}\n", e.what());
         return 1;

@@ -80,9 +80,25 @@ bool agree(const Trials& found, const Trials& expected) {
     return true;
 }
 
+/// Blocks of wavelengths at which a black body is not lost in the light around the smoke.
+std::vector<unsigned char> glowing_blocks(const SceneTables& tables, double T_K) {
+    constexpr float kLeastShare = 1e-7F;
+    const SmokeSpectra& s = tables.smoke;
+    const PlanckRows::Lookup at = tables.planck.at(T_K);
+    std::vector<unsigned char> glows(static_cast<std::size_t>(tables.stride / SpectralKernels::kLanes), 0);
+    for (std::size_t l = 0; l < static_cast<std::size_t>(tables.lambdas); ++l) {
+        float B = 0.0F;
+        for (int j = 0; j < at.count; ++j) B += at.weight[static_cast<std::size_t>(j)] * tables.planck.row(at.row + j)[l];
+        if (B > kLeastShare * (s.sky_radiance[l] + s.ground_radiance[l] + s.ground_lit[l])) glows[l / SpectralKernels::kLanes] = 1;
+    }
+    return glows;
+}
+
 }  // namespace
 
-SmokeNodes::SmokeNodes(const SceneTables& tables, const SmokeLight& light, std::span<const double> lambda_um) {
+SmokeNodes::SmokeNodes(const SceneTables& tables, const SmokeLight& light, std::span<const double> lambda_um,
+                       double warmest_K)
+    : glows_(glowing_blocks(tables, warmest_K)) {
     const SmokeSpectra& s = tables.smoke;
     scatters_ = s.scatters;
     diffuse_ = !s.diffusion.empty();
@@ -193,6 +209,7 @@ void SmokeNodes::set(SmokeRun& run) const noexcept {
     run.first = first_.data();
     run.node_of = node_of_.data();
     run.weight = weight_.data();
+    run.glows = glows_.data();
 }
 
 }  // namespace pyroscene::render

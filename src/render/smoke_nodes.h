@@ -19,7 +19,8 @@ class SmokeLight;
 /// sum to 1, so a furnace stays one. Intervals of few wavelengths are their own nodes and exact.
 class SmokeNodes {
 public:
-    SmokeNodes(const SceneTables& tables, const SmokeLight& light, std::span<const double> lambda_um);
+    /// \param warmest_K  temperature of smoke
+    SmokeNodes(const SceneTables& tables, const SmokeLight& light, std::span<const double> lambda_um, double warmest_K);
 
     [[nodiscard]] int count() const noexcept { return node_.n; }
     /// Sets the nodes of a run and their way to the wavelengths; all of it lives as long as this.
@@ -47,6 +48,7 @@ private:
     std::vector<float> spectra_;  ///< that node_ points into
     std::vector<int> first_, node_of_;
     std::vector<float> weight_;
+    std::vector<unsigned char> glows_;
 };
 
 }  // namespace pyroscene::render

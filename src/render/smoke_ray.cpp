@@ -1,6 +1,5 @@
 #include "render/smoke_ray.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pyroscene::render {
@@ -79,7 +78,10 @@ void SmokeRay::send(float scale, const Spectra& out) {
     at_nodes_.resize(static_cast<std::size_t>(nodes_->count()) * (SmokeRun::kSpectra + 3 * steps_.size()));
     run.steps = steps_.data();
     run.count = static_cast<int>(steps_.size());
-    run.flame_light = std::any_of(steps_.begin(), steps_.end(), [](const SmokeStep& s) { return s.flame_per_m2 > 0.0F; });
+    for (const SmokeStep& step : steps_) {
+        run.flame = run.flame || step.flame_m > 0.0F;
+        run.flame_light = run.flame_light || step.flame_per_m2 > 0.0F;
+    }
     run.at_nodes = at_nodes_.data();
     run.n = tables_->stride;
     if (smoke.scatters) {

@@ -47,13 +47,14 @@ struct SmokeWaySpectra {
 struct SmokeRun {
     const SmokeStep* steps = nullptr;
     int count = 0;
-    bool flame_light = false;  ///< of any step
+    bool flame = false, flame_light = false;  ///< in any step; on any step
     SmokeWaySpectra node{};
     float* at_nodes = nullptr;  ///< scratch: kSpectra + 3 count rows of node.n
     // From the nodes to the wavelengths: those of block i (eight wavelengths) are entries first[i] to first[i + 1].
     int n = 0;
     const int *first = nullptr, *node_of = nullptr;
-    const float* weight = nullptr;  ///< [entry][lane]
+    const float* weight = nullptr;         ///< [entry][lane]
+    const unsigned char* glows = nullptr;  ///< [block] 0: black bodies as warm as this smoke add nothing to the light around
     const float* albedo = nullptr;  ///< null: no scattering
     const float *sky = nullptr, *ground = nullptr, *ground_lit = nullptr;  ///< radiance from above; from below: emitted, sunlit
     const float* irradiance = nullptr;                                     ///< of the sun, normal to its beam
