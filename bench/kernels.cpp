@@ -128,12 +128,14 @@ void smoke(benchmark::State& state) {
         for (int j = 0; j < 4; ++j) node_of.push_back(block + j);
     }
     std::vector<render::SmokeStep> steps(kSteps);
+    float column = 0.0F;
     for (auto& step : steps) {
         step.smoke_m = 0.01F;
         step.flame_m = kind == 3 ? 0.02F : 0.0F;
         step.smoke = step.flame = {planck.data(), 4, {-0.06F, 0.56F, 0.56F, -0.06F}};
-        step.sun_column = step.column_above = step.column_below = step.flame_column = 1.0F;
-        step.sun_column_change = 0.02F;
+        step.sun_column = column++ * 0.02F;
+        step.sun_column_far = column * 0.02F;
+        step.column_above = step.column_below = step.flame_column = 1.0F;
         step.flame_per_m2 = kind >= 2 ? 1e-4F : 0.0F;
         step.flame_bundling = 0.5F;
     }
@@ -143,7 +145,7 @@ void smoke(benchmark::State& state) {
     run.flame = kind == 3;
     run.flame_light = kind >= 2;
     run.glows = glows.data();
-    run.node = {kNodes, k.data(), k.data(), asymmetry.data(), k.data(), k.data(), k.data(), light.data(), nullptr};
+    run.node = {kNodes, k.data(), k.data(), asymmetry.data(), k.data(), k.data(), k.data(), light.data(), nullptr, nullptr, nullptr};
     run.at_nodes = at_nodes.data();
     run.n = n;
     run.first = first.data();

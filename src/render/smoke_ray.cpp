@@ -21,6 +21,7 @@ bool SmokeRay::march(Vec3 start_m, Vec3 end_m) {
     start_m_ = start_m;
     way_m_ = end_m - start_m;
     direction_ = way_m_ / length(way_m_);
+    lit_until_ = -1.0;
     pieces_.clear();
     merge_segments(flame_segments_, smoke_segments_, length(way_m_),
                    [&](const MixedPiece& piece) { pieces_.push_back(piece); });
@@ -28,12 +29,14 @@ bool SmokeRay::march(Vec3 start_m, Vec3 end_m) {
 }
 
 /// Light that reaches the part of the ray between two of its parameters.
-void SmokeRay::light(SmokeStep& step, double from, double to) const {
+void SmokeRay::light(SmokeStep& step, double from, double to) {
     const SmokeSpectra& smoke = tables_->smoke;
-    const SmokeLight::Node near = light_->at(start_m_ + from * way_m_), far = light_->at(start_m_ + to * way_m_);
+    const SmokeLight::Node near = from == lit_until_ ? lit_ : light_->at(start_m_ + from * way_m_);
+    const SmokeLight::Node far = light_->at(start_m_ + to * way_m_);
+    lit_ = far, lit_until_ = to;
     const auto middle = [&](SmokeLight::Quantity q) { return 0.5F * (near[q] + far[q]); };
     step.sun_column = near[SmokeLight::ToSun];
-    step.sun_column_change = far[SmokeLight::ToSun] - near[SmokeLight::ToSun];
+    step.sun_column_far = far[SmokeLight::ToSun];
     if (smoke.diffusion.empty()) {
         step.column_above = kMeanSlant * middle(SmokeLight::Above);
         step.column_below = kMeanSlant * middle(SmokeLight::Below);

@@ -29,7 +29,7 @@ public:
 
 private:
     void add_step(const MixedPiece& piece, double from, double to);
-    void light(SmokeStep& step, double from, double to) const;
+    void light(SmokeStep& step, double from, double to);
     void send(float scale, const Spectra& out);
 
     const SceneTables* tables_;
@@ -40,6 +40,8 @@ private:
     Vec3 start_m_, way_m_, direction_;
     std::vector<RaySegment> flame_segments_, smoke_segments_;
     std::vector<MixedPiece> pieces_;
+    SmokeLight::Node lit_{};  ///< light at the ray parameter where the last step ended
+    double lit_until_ = -1.0;
     std::vector<SmokeStep> steps_;  ///< gathered, not yet sent
     std::vector<float> at_nodes_;
     std::vector<float> sun_;  ///< irradiance times phase function of this ray

@@ -15,7 +15,7 @@ struct PlanckBlend {
 struct SmokeStep {
     float smoke_m = 0.0F, flame_m = 0.0F;  ///< fill x length
     PlanckBlend smoke, flame;
-    float sun_column = 0.0F, sun_column_change = 0.0F;  ///< fill x length at the near end, far minus near
+    float sun_column = 0.0F, sun_column_far = 0.0F;  ///< fill x length towards the sun, at the near and the far end
     float column_above = 0.0F, column_below = 0.0F;     ///< along a mean slant; of light scattered once
     float flame_per_m2 = 0.0F, flame_column = 0.0F;
     float flame_cosine = 1.0F, flame_bundling = 0.0F;  ///< of the scattering angle; 1: all from one direction, 0: from all
@@ -30,6 +30,7 @@ struct SmokeWaySpectra {
     const float *flame_k = nullptr, *flame_spread = nullptr;   ///< flames' light passes exp(-k c) / (1 + spread c)
     const float* flame_share_m2 = nullptr;
     const float* diffusion_weight = nullptr;  ///< [diffusion node][n]; null: light is scattered once
+    const int *first_diffusion = nullptr, *end_diffusion = nullptr;  ///< [block of n] nodes with weights that are not 0
 };
 
 /// Consecutive pieces of one ray. Optical depths a = k_f depth_f of flame and b = k_s depth_s of smoke, albedo w of the smoke;
