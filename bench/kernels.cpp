@@ -145,7 +145,8 @@ void smoke(benchmark::State& state) {
     run.flame = kind == 3;
     run.flame_light = kind >= 2;
     run.glows = glows.data();
-    run.node = {kNodes, k.data(), k.data(), asymmetry.data(), k.data(), k.data(), k.data(), light.data(), nullptr, nullptr, nullptr};
+    run.node = {kNodes,   k.data(),     k.data(), asymmetry.data(), k.data(), k.data(),
+                k.data(), light.data(), nullptr,  nullptr,          nullptr};
     run.at_nodes = at_nodes.data();
     run.n = n;
     run.first = first.data();

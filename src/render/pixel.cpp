@@ -29,7 +29,9 @@ Pixel::Pixel(const PreparedScene& prepared)
       scattered_(smoke_.size(), 0.0F),
       tau_(static_cast<std::size_t>(prepared.tables.stride), 1.0F) {
     if (prepared.tables.mixture) mixture_.emplace(*prepared.tables.mixture);
-    if (prepared.smoke) smoke_ray_.emplace(prepared.tables, prepared.flame, prepared.smoke->columns, prepared.smoke->light, prepared.smoke->nodes);
+    if (prepared.smoke)
+        smoke_ray_.emplace(prepared.tables, prepared.flame, prepared.smoke->columns, prepared.smoke->light,
+                           prepared.smoke->nodes);
 }
 
 void Pixel::begin() {

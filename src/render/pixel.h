@@ -21,7 +21,10 @@ struct PreparedScene {
     }
     struct Smoke {
         Smoke(const RenderScene& s, const SceneTables& t)
-            : columns(*s.plume), light(s, t, columns), nodes(t, light, s.optics->lambda_um, s.plume->temperature_range_K()[1]), shadow(s) {}
+            : columns(*s.plume),
+              light(s, t, columns),
+              nodes(t, light, s.optics->lambda_um, s.plume->temperature_range_K()[1]),
+              shadow(s) {}
         FlameColumns columns;
         SmokeLight light;
         SmokeNodes nodes;

@@ -95,7 +95,8 @@ std::vector<unsigned char> glowing_blocks(const SceneTables& tables, double T_K)
     for (std::size_t l = 0; l < static_cast<std::size_t>(tables.lambdas); ++l) {
         float B = 0.0F;
         for (int j = 0; j < at.count; ++j) B += at.weight[static_cast<std::size_t>(j)] * tables.planck.row(at.row + j)[l];
-        if (B > kLeastShare * (s.sky_radiance[l] + s.ground_radiance[l] + s.ground_lit[l])) glows[l / SpectralKernels::kLanes] = 1;
+        if (B > kLeastShare * (s.sky_radiance[l] + s.ground_radiance[l] + s.ground_lit[l]))
+            glows[l / SpectralKernels::kLanes] = 1;
     }
     return glows;
 }
@@ -112,9 +113,14 @@ SmokeNodes::SmokeNodes(const SceneTables& tables, const SmokeLight& light, std::
         return spectrum.empty() ? 0.0 : static_cast<double>(spectrum[l]);
     };
     for (std::size_t l = 0; l < lambda_um.size(); ++l) {
-        Optics o{at(s.extinction_per_m, l),    at(tables.absorption_per_m, l), at(s.asymmetry, l),
-                 at(s.beam_per_m, l),          at(s.flame_per_m, l),           at(s.flame_spread_per_m, l),
-                 scatters_ ? static_cast<double>(light.flame_share_m2()[l]) : 0.0, {}};
+        Optics o{at(s.extinction_per_m, l),
+                 at(tables.absorption_per_m, l),
+                 at(s.asymmetry, l),
+                 at(s.beam_per_m, l),
+                 at(s.flame_per_m, l),
+                 at(s.flame_spread_per_m, l),
+                 scatters_ ? static_cast<double>(light.flame_share_m2()[l]) : 0.0,
+                 {}};
         for (std::size_t d = 0; diffuse_ && d < o.diffusion.size(); ++d)
             o.diffusion[d] = at(s.diffusion.weight, d * static_cast<std::size_t>(tables.stride) + l);
         optics_.push_back(o);
@@ -212,7 +218,8 @@ void SmokeNodes::gather_spectra() {
     spectra_.assign((kPlain + DiffusionNodes::kCount) * n, 0.0F);
     for (std::size_t j = 0; j < wavelength_of_.size(); ++j) {
         const Optics& o = optics_[wavelength_of_[j]];
-        const double plain[kPlain] = {o.extinction, o.absorption, o.asymmetry, o.beam, o.flame_k, o.flame_spread, o.flame_share_m2};
+        const double plain[kPlain] = {o.extinction, o.absorption,   o.asymmetry,     o.beam,
+                                      o.flame_k,    o.flame_spread, o.flame_share_m2};
         for (std::size_t q = 0; q < kPlain; ++q) spectra_[q * n + j] = static_cast<float>(plain[q]);
         for (std::size_t d = 0; d < o.diffusion.size(); ++d)
             spectra_[(kPlain + d) * n + j] = static_cast<float>(o.diffusion[d]);

@@ -16,7 +16,7 @@ struct SmokeStep {
     float smoke_m = 0.0F, flame_m = 0.0F;  ///< fill x length
     PlanckBlend smoke, flame;
     float sun_column = 0.0F, sun_column_far = 0.0F;  ///< fill x length towards the sun, at the near and the far end
-    float column_above = 0.0F, column_below = 0.0F;     ///< along a mean slant; of light scattered once
+    float column_above = 0.0F, column_below = 0.0F;  ///< along a mean slant; of light scattered once
     float flame_per_m2 = 0.0F, flame_column = 0.0F;
     float flame_cosine = 1.0F, flame_bundling = 0.0F;  ///< of the scattering angle; 1: all from one direction, 0: from all
     DiffuseSource diffuse{};                           ///< of light scattered more than once
@@ -29,7 +29,7 @@ struct SmokeWaySpectra {
     const float *asymmetry = nullptr, *beam = nullptr;         ///< what dims the sun's beam, per column
     const float *flame_k = nullptr, *flame_spread = nullptr;   ///< flames' light passes exp(-k c) / (1 + spread c)
     const float* flame_share_m2 = nullptr;
-    const float* diffusion_weight = nullptr;  ///< [diffusion node][n]; null: light is scattered once
+    const float* diffusion_weight = nullptr;                         ///< [diffusion node][n]; null: light is scattered once
     const int *first_diffusion = nullptr, *end_diffusion = nullptr;  ///< [block of n] nodes with weights that are not 0
 };
 
@@ -56,10 +56,11 @@ struct SmokeRun {
     const int *first = nullptr, *node_of = nullptr;
     const float* weight = nullptr;         ///< [entry][lane]
     const unsigned char* glows = nullptr;  ///< [block] 0: black bodies as warm as this smoke add nothing to the light around
-    const float* albedo = nullptr;  ///< null: no scattering
-    const float *sky = nullptr, *ground = nullptr, *ground_lit = nullptr;  ///< radiance from above; from below: emitted, sunlit
-    const float* irradiance = nullptr;                                     ///< of the sun, normal to its beam
-    const float* sun = nullptr;                                            ///< the same times the phase function per sr
+    const float* albedo = nullptr;         ///< null: no scattering
+    const float *sky = nullptr, *ground = nullptr,
+                *ground_lit = nullptr;  ///< radiance from above; from below: emitted, sunlit
+    const float* irradiance = nullptr;  ///< of the sun, normal to its beam
+    const float* sun = nullptr;         ///< the same times the phase function per sr
     const float* flame_radiance = nullptr;
     float scale = 1.0F;
     float *tau = nullptr, *flame_out = nullptr, *smoke_out = nullptr, *scattered_out = nullptr;
