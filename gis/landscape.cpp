@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "gis/crs.h"
 #include "gis/gdal_support.h"
+#include "gis/memory_raster.h"
 #include "gis/raster_source.h"
 #include "gis/units.h"
 
@@ -220,20 +221,9 @@ std::filesystem::path raster_of_codes(const Landscape& landscape, const std::map
         const auto known = std::isnan(value) ? value_of_code.end() : value_of_code.find(static_cast<int>(value));
         value = known == value_of_code.end() ? 0.0F : static_cast<float>(known->second);
     }
-    const auto name = landscape.raster.parent_path() / "of_codes.tif";
-    const GdalErrors errors;
-    auto* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-    const DatasetPtr dataset(driver->Create(name.c_str(), source.cols, source.rows, 1, GDT_Float32, nullptr));
-    if (!dataset) throw runtime_error(name.string(), "cannot be kept in memory: " + errors.message());
-    auto transform = source.geotransform;
-    dataset->SetGeoTransform(transform.data());
-    dataset->SetProjection(source.crs.wkt.c_str());
-    auto* band = dataset->GetRasterBand(1);
-    band->SetUnitType(unit.c_str());
-    if (band->RasterIO(GF_Write, 0, 0, source.cols, source.rows, values.data(), source.cols, source.rows, GDT_Float32, 0, 0,
-                       nullptr) != CE_None)
-        throw runtime_error(name.string(), "cannot be kept in memory: " + errors.message());
-    return name;
+    MemoryRaster raster{source.cols, source.rows, source.geotransform, source.crs.wkt, unit, {}};
+    raster.bands.push_back(std::move(values));
+    return keep_in_memory("landscape", landscape.raster.string(), "of_codes", raster);
 }
 
 }  // namespace pyroscene::gis

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <string_view>
 #include <utility>
 
 #include <cpl_minixml.h>
@@ -13,13 +11,12 @@
 
 #include "base/error.h"
 #include "gis/gdal_support.h"
+#include "gis/memory_raster.h"
 #include "gis/raster_source.h"
 #include "gis/wrf_sfire.h"
 
 namespace pyroscene::gis {
 namespace {
-
-constexpr std::string_view kMemory = "/vsimem/wrf_";
 
 /// Extent of one of the two grids in pixels of its variables. GDAL turns netCDF files north up, which brings the padding of
 /// the fire grid, the northernmost rows and easternmost columns of the file, to the top and the right.
@@ -42,10 +39,10 @@ std::string escaped(const std::string& text) {
 }
 
 /// Names of one series must not meet those of another in the same process.
-std::string memory_name(const WrfSfire& wrf, const std::string& name, const char* ending) {
+std::string series_key(const WrfSfire& wrf) {
     std::string all;
     for (const auto& moment : wrf.moments) all += moment.file.string() + fmt::format("#{};", moment.record);
-    return fmt::format("{}{:016x}/{}.{}", kMemory, std::hash<std::string>{}(all), name, ending);
+    return all;
 }
 
 std::string source_xml(const WrfMoment& moment, const std::string& variable, const Extent& e) {
@@ -117,7 +114,7 @@ std::filesystem::path wrf_raster(const WrfSfire& wrf, const std::string& name, c
     const Extent e = extent(wrf, grid);
     std::string xml = dataset_head(wrf, e);
     for (std::size_t i = 0; i < bands.size(); ++i) xml += band_xml(bands[i], static_cast<int>(i) + 1, unit, e, combine);
-    const auto file = memory_name(wrf, name, "vrt");
+    const auto file = memory_name("wrf", series_key(wrf), name, "vrt");
     write_memory_file(file, xml + "</VRTDataset>");
     return file;
 }
@@ -141,20 +138,9 @@ std::filesystem::path wrf_arrival(const WrfSfire& wrf, double epoch_unix_s) {
                 fmt::format("the fire has burned since {:g} s before the scenario's start; set start to the ignition",
                             -static_cast<double>(value)));
     }
-    const auto name = memory_name(wrf, "arrival", "tif");
-    const GdalErrors errors;
-    auto* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-    const DatasetPtr dataset(driver->Create(name.c_str(), e.cols, e.rows, 1, GDT_Float32, nullptr));
-    if (!dataset) throw runtime_error(name, "cannot be kept in memory: " + errors.message());
-    std::array<double, 6> transform{wrf.west_m, e.cell_x_m, 0.0, wrf.north_m, 0.0, -e.cell_y_m};
-    dataset->SetGeoTransform(transform.data());
-    dataset->SetProjection(wrf.crs_wkt.c_str());
-    auto* out = dataset->GetRasterBand(1);
-    out->SetUnitType("s");
-    out->SetNoDataValue(std::nan(""));
-    if (out->RasterIO(GF_Write, 0, 0, e.cols, e.rows, values.data(), e.cols, e.rows, GDT_Float32, 0, 0, nullptr) != CE_None)
-        throw runtime_error(name, "cannot be kept in memory: " + errors.message());
-    return name;
+    MemoryRaster arrival{e.cols, e.rows, north_up(wrf.west_m, wrf.north_m, e.cell_x_m, e.cell_y_m), wrf.crs_wkt, "s", {}};
+    arrival.bands.push_back(std::move(values));
+    return keep_in_memory("wrf", series_key(wrf), "arrival", arrival);
 }
 
 double wrf_integral(const WrfSfire& wrf, const WrfMoment& moment, const std::string& variable, WrfGrid grid) {

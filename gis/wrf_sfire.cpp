@@ -194,7 +194,7 @@ void place_on_map(const File& file, const Layout& l, WrfSfire& wrf) {
                         worst, l.dx_m, 2.0 * resolution_m));
 }
 
-void place(const File& file, const Layout& l, const std::optional<WrfPlacement>& placement, WrfSfire& wrf) {
+void place(const File& file, const Layout& l, const std::optional<LocalPlacement>& placement, WrfSfire& wrf) {
     if (l.map_projection == 0) {
         if (!placement)
             throw input_error(file.path.string(),
@@ -234,7 +234,7 @@ void sort_moments(std::vector<WrfMoment>& moments) {
 
 }  // namespace
 
-WrfSfire open_wrf_sfire(const std::vector<std::filesystem::path>& files, const std::optional<WrfPlacement>& placement) {
+WrfSfire open_wrf_sfire(const std::vector<std::filesystem::path>& files, const std::optional<LocalPlacement>& placement) {
     // It would turn every raster upside down, and nothing in an idealised run would tell.
     if (CPLGetConfigOption("GDAL_NETCDF_BOTTOMUP", nullptr) != nullptr)
         throw input_error("GDAL_NETCDF_BOTTOMUP",

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "gis/memory_raster.h"
+
 /// History files of WRF-SFIRE and WRF-Fire (wrfout_dNN_...) as ordinary rasters. Names, units and layout: WRF-SFIRE's
 /// Registry/registry.fire and phys/module_fr_sfire_phys.F (openwfm/WRF-SFIRE, commit e2bb84f1).
 namespace pyroscene::gis {
@@ -16,12 +18,6 @@ struct WrfMoment {
     std::filesystem::path file;
     int record = 0;       ///< from 0
     double unix_s = 0.0;  ///< of its `Times`
-};
-
-/// Where an idealised run without a map is put.
-struct WrfPlacement {
-    std::string crs;                     ///< projected, metres
-    double west_m = 0.0, south_m = 0.0;  ///< outer corner of the first cell
 };
 
 /// What a series of files is about. The fire grid refines every cell of the atmosphere's grid; both share their outer corner.
@@ -43,7 +39,7 @@ struct WrfSfire {
 /// all cells of XLONG, XLAT, whose float32 scatter must not exceed twice its resolution. Projection 0 (idealised) takes the
 /// placement. Input errors, naming the file: no fire grid, no `Times`, another grid or projection than the first file,
 /// projection 6 or unknown, coordinates that do not fit the projection, placement missing (or given for a run with a map).
-WrfSfire open_wrf_sfire(const std::vector<std::filesystem::path>& files, const std::optional<WrfPlacement>& placement);
+WrfSfire open_wrf_sfire(const std::vector<std::filesystem::path>& files, const std::optional<LocalPlacement>& placement);
 
 /// One band of a virtual raster: variables of one moment, summed or multiplied where there are several.
 struct WrfBand {

@@ -107,7 +107,7 @@ void check_heat(const gis::WrfSfire& wrf, const Series& series, std::vector<std:
 scenario::Scenario with_wrf_inputs(scenario::Scenario s) {
     if (!s.inputs.wrf_sfire) return s;
     const auto& source = *s.inputs.wrf_sfire;
-    std::optional<gis::WrfPlacement> placement;
+    std::optional<gis::LocalPlacement> placement;
     if (source.west_m) placement = {source.crs, *source.west_m, *source.south_m};
     const auto wrf = gis::open_wrf_sfire(source.files, placement);
     const auto file = source.files.front().string();

@@ -58,6 +58,8 @@ std::string text(const scenario::FuelSource& s) {
 
 std::string text(const scenario::ArrivalModelSource& s) {
     std::string out = text(s.arrival.raster) + fmt::format("{}|{}|{};", s.model, s.arrival.unit, s.offset_s) + text(s.fuel);
+    out += fmt::format("{}|{}|{}|{}|{}|{}|{}|{};", s.grids, s.period, s.crs, s.west_m.value_or(0.0), s.south_m.value_or(0.0),
+                       s.cols, s.rows, s.cell_m);
     for (const auto* raster : {&s.fireline_intensity, &s.flame_length, &s.spread_rate})
         out += *raster ? text((*raster)->raster) + (*raster)->unit : "-;";
     return out + fmt::format("{}|{}|{}|{};", s.fuel_moisture_pct, fmt::join(s.frames.times_s, ","), s.frames.mean_over_s,

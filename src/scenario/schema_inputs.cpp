@@ -102,9 +102,22 @@ std::string fire_keys() {
       "additionalProperties": false,
       "required": ["model", "arrival"],
       "properties": {
-        "model": {"enum": ["farsite", "flammap", "elmfire", "pyretechnics", "forefire", "other"]},
-        "arrival": )json" +
-           unit_raster(kTimeUnits) + R"json(,
+        "model": {"enum": ["farsite", "flammap", "elmfire", "pyretechnics", "cell2fire", "forefire", "quic-fire", "fds", "other"]},
+        "arrival": {"type": "object", "additionalProperties": false,
+          "oneOf": [{"required": ["file"]}, {"required": ["files"]}],
+          "properties": {
+            "file": {"type": "string"}, "band": {"$ref": "#/$defs/band"},
+            "files": {"type": "array", "minItems": 1, "items": {"type": "string"}, "description": "ForestGridNN.csv of Cell2Fire, mburnt_integ-TTTTT.bin of QUIC-Fire"},
+            "unit": {"enum": ["s", "min", "h"]},
+            "period": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e5, "description": "of Cell2Fire, in 'unit'; without it: 1"}
+          }},
+        "like": {"type": "string", "description": "raster of the cells of Cell2Fire (its fuels.asc)"},
+        "crs": {"type": "string", "description": "of rasters that do not say their own; of the place of QUIC-Fire and FDS"},
+        "west_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "x of the origin of QUIC-Fire or FDS"},
+        "south_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "y of the origin of QUIC-Fire or FDS"},
+        "cols": {"type": "integer", "minimum": 1, "maximum": 100000, "description": "nx of QUIC-Fire"},
+        "rows": {"type": "integer", "minimum": 1, "maximum": 100000, "description": "ny of QUIC-Fire"},
+        "cell_m": {"type": "number", "minimum": 0.1, "maximum": 10000, "description": "dx of QUIC-Fire"},
         "fireline_intensity": )json" +
            unit_raster(kIntensityUnits) + R"json(,
         "flame_length": )json" +

@@ -30,7 +30,7 @@ protected:
         return folder_ / name;
     }
     static std::string refusal(const std::vector<std::filesystem::path>& files,
-                               const std::optional<WrfPlacement>& placement = {}) {
+                               const std::optional<LocalPlacement>& placement = {}) {
         try {
             (void)open_wrf_sfire(files, placement);
         } catch (const Error& e) {
@@ -145,10 +145,10 @@ TEST_F(WrfSfireFiles, IdealisedRunsNeedAPlace) {
     layout.map_projection = 0;
     const auto file = write(layout);
     EXPECT_NE(refusal({file}).find("MAP_PROJ 0"), std::string::npos);
-    const auto wrf = open_wrf_sfire({file}, WrfPlacement{"EPSG:32613", 500000.0, 4400000.0});
+    const auto wrf = open_wrf_sfire({file}, LocalPlacement{"EPSG:32613", 500000.0, 4400000.0});
     EXPECT_EQ(wrf.west_m, 500000.0);
     EXPECT_EQ(wrf.north_m, 4400000.0 + 5 * 90.0);
-    EXPECT_NE(refusal({write(WrfTestFile{}, "real")}, WrfPlacement{"EPSG:32613", 0.0, 0.0}).find("of its own"),
+    EXPECT_NE(refusal({write(WrfTestFile{}, "real")}, LocalPlacement{"EPSG:32613", 0.0, 0.0}).find("of its own"),
               std::string::npos);
 }
 

@@ -47,6 +47,38 @@ TEST(ArrivalModel, WantsTheUnitsThatFilesDoNotSay) {
               Lines{"4: inputs.arrival_model.arrival.unit: 'days' is none of s, min, h"});
 }
 
+TEST(ArrivalModel, TakesTheFilesOfProgramsThatWriteNoRasters) {
+    const ScenarioFolder folder;
+    const auto model = [&](const std::string& keys) { return *folder.load(with_model(keys)).inputs.arrival_model; };
+    const auto messages =
+        model("model: cell2fire, arrival: {file: arrival.tif, unit: min}, like: fuel.tif, crs: EPSG:32719");
+    EXPECT_FALSE(messages.grids);
+    EXPECT_EQ(messages.period, 1.0);
+    EXPECT_EQ(messages.like->filename(), "fuel.tif");
+    EXPECT_EQ(messages.crs, "EPSG:32719");
+    const auto grids =
+        model("model: cell2fire, arrival: {files: [arrival.tif, heat.tif], unit: min, period: 60}, like: fuel.tif");
+    EXPECT_TRUE(grids.grids);
+    EXPECT_EQ(grids.arrival.raster.files.size(), 2U);
+    EXPECT_EQ(grids.period, 60.0);
+    const auto quic = model(
+        "model: quic-fire, arrival: {files: [heat.tif]}, crs: EPSG:32616, west_m: 5, south_m: 6, cols: 7, rows: 8, cell_m: "
+        "2");
+    EXPECT_EQ(quic.cols, 7);
+    EXPECT_EQ(quic.rows, 8);
+    EXPECT_EQ(*quic.south_m, 6.0);
+    EXPECT_EQ(quic.arrival.unit, "s");
+    const auto fds = model(
+        "model: fds, arrival: {file: heat.tif}, spread_rate: {file: heat.tif}, crs: EPSG:32616, west_m: 5, south_m: 6");
+    EXPECT_EQ(fds.spread_rate->unit, "m/s");
+    EXPECT_EQ(folder.problems(with_model("model: fds, arrival: {files: [heat.tif]}, crs: EPSG:32616, west_m: 5, south_m: 6"))
+                  .size(),
+              2U);
+    EXPECT_EQ(folder.problems(with_model("model: elmfire, arrival: {file: arrival.tif}, cols: 7")),
+              Lines{"4: inputs.arrival_model.cols: does not belong to model 'elmfire'"});
+    EXPECT_EQ(folder.problems(with_model("model: fds, arrival: {file: arrival.tif}")).size(), 3U);
+}
+
 TEST(ArrivalModel, StandsAlone) {
     const ScenarioFolder folder;
     EXPECT_EQ(folder.problems(with_model("model: elmfire, arrival: {file: arrival.tif}", "  heat_flux: {file: heat.tif}\n")),
