@@ -129,6 +129,7 @@ void set_tilt(FireState& state, std::size_t i, const FrameInputs& frame, const R
     if (!std::isfinite(east_m_s) || !std::isfinite(north_m_s)) return;
     TiltInputs in = rules.tilt_inputs;
     in.wind_m_s = std::hypot(east_m_s, north_m_s);
+    if (frame.front != nullptr && frame.front->midflame_wind) in.wind_m_s *= frame.front->midflame_wind->values[i];
     in.fireline_intensity_W_m = front.fireline_intensity_W_m;
     in.burning_rate_kg_m_s = front.fireline_intensity_W_m / in.heat_of_combustion_J_kg;
     in.heat_release_W = front.heat_release_W;

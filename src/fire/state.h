@@ -69,6 +69,7 @@ struct FrontInputs {
     std::optional<Raster<float>> fireline_intensity_W_m;   ///< as given
     std::optional<Raster<float>> flame_length_m;           ///< as given; along the leaning axis
     std::optional<Raster<float>> residence_time_s;         ///< of flames at one place
+    std::optional<Raster<float>> midflame_wind;            ///< wind at flames / wind of the frame; none = the same
     std::optional<Raster<float>> slope_east, slope_north;  ///< of the ground, rise over run; both or none
 };
 

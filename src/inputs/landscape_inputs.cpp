@@ -13,6 +13,13 @@
 namespace pyroscene::inputs {
 namespace {
 
+std::vector<scenario::CanopySource*> canopies_of(scenario::Inputs& in) {
+    std::vector<scenario::CanopySource*> canopies;
+    if (in.spread) canopies.push_back(&in.spread->canopy);
+    if (in.wind) canopies.push_back(&in.wind->canopy);
+    return canopies;
+}
+
 /// The sources that name the landscape's file, by whichever key.
 std::vector<scenario::RasterSource*> sources_of(scenario::Inputs& in) {
     std::vector<scenario::RasterSource*> sources{&in.terrain};
@@ -20,9 +27,10 @@ std::vector<scenario::RasterSource*> sources_of(scenario::Inputs& in) {
     if (in.arrival_model) sources.push_back(&in.arrival_model->fuel.raster);
     if (in.spread) {
         sources.push_back(&in.spread->fuel.raster);
-        for (auto* canopy : {&in.spread->canopy_cover, &in.spread->canopy_height_m})
-            if (canopy->raster) sources.push_back(&*canopy->raster);
     }
+    for (auto* canopy : canopies_of(in))
+        for (auto* quantity : {&canopy->cover, &canopy->height_m})
+            if (quantity->raster) sources.push_back(&*quantity->raster);
     return sources;
 }
 
@@ -50,9 +58,11 @@ scenario::Scenario with_landscape(scenario::Scenario s) {
     check_codes(source, land, models);
     if (!land.slope_note.empty()) s.notes.push_back(fmt::format("{}: {}", source.file.string(), land.slope_note));
     auto& in = s.inputs;
-    if (in.spread && in.spread->canopy_height_m.raster && in.spread->canopy_height_m.raster->files.front() == source.file &&
-        land.bands < gis::kCanopyHeight) {
-        in.spread->canopy_cover = in.spread->canopy_height_m = {};
+    for (auto* canopy : canopies_of(in)) {
+        if (!canopy->height_m.raster || canopy->height_m.raster->files.front() != source.file ||
+            land.bands >= gis::kCanopyHeight)
+            continue;
+        *canopy = {};
         s.notes.push_back(fmt::format("{}: has no canopy height: its trees do not shelter the fuel", source.file.string()));
     }
     for (auto* raster : sources_of(in))

@@ -111,9 +111,11 @@ SceneInputs load_scene_inputs(const Scenario& scenario, const std::function<void
         ++count;
     }
     in.mean_height_m = sum / static_cast<double>(count);
+    in.wind_levels = wind_levels(scenario, in.grid);
+    const WindLevels* const levels = in.wind_levels ? &*in.wind_levels : nullptr;
     if (scenario.inputs.arrival_model) in.modelled = read_arrival_model(scenario, in.grid);
     if (scenario.inputs.spread)
-        in.modelled = spread_own_fire(scenario, in.terrain_m, [&](double time_s) {
+        in.modelled = spread_own_fire(scenario, in.terrain_m, levels, [&](double time_s) {
             if (on_progress) on_progress(time_s / scenario.inputs.spread->frames.times_s.back());
         });
     if (in.modelled) {
@@ -128,6 +130,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario, const std::function<void
         in.arrival_time_s = gis::read_band(
             {arrival->files.front(), first_band(*arrival), gis::Resampling::Bilinear, "arrival time", "s"}, in.grid);
     in.front = load_front_inputs(scenario, in.terrain_m, in.arrival_time_s, in.modelled ? &*in.modelled : nullptr);
+    if (levels != nullptr) in.front.midflame_wind = levels->to_midflame;
     in.origin_m = {0.5 * (in.grid.west_m + in.grid.east_m()), 0.5 * (in.grid.south_m() + in.grid.north_m), 0.0};
     in.centre = gis::MapProjection(in.grid.crs_wkt).to_geodetic(in.origin_m.x, in.origin_m.y, in.mean_height_m);
     return in;
@@ -144,7 +147,8 @@ fire::FrameInputs load_frame(const Scenario& scenario, const SceneInputs& inputs
     out.arrival_time_s = inputs.arrival_time_s;
     out.front = &inputs.front;
     out.scar_class = inputs.scar_class;
-    auto wind = wind_at(scenario, inputs.grid, inputs.frames.size(), frame, source.time_s);
+    auto wind = wind_at(scenario, inputs.grid, inputs.frames.size(), frame, source.time_s,
+                        inputs.wind_levels ? &*inputs.wind_levels : nullptr);
     out.wind_east_m_s = std::move(wind.east_m_s);
     out.wind_north_m_s = std::move(wind.north_m_s);
     return out;
@@ -171,6 +175,12 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
     if (in.cover) sources.push_back(&in.cover->raster);
     std::set<std::filesystem::path> unique;
     if (in.wrf_sfire) unique.insert(in.wrf_sfire->files.begin(), in.wrf_sfire->files.end());
+    if (in.wind && in.wind->windninja)
+        for (const auto* files : {&in.wind->windninja->speed, &in.wind->windninja->angle})
+            unique.insert(files->begin(), files->end());
+    if (in.wind)
+        for (const auto* trees : {&in.wind->canopy.cover, &in.wind->canopy.height_m})
+            if (trees->raster) sources.push_back(&*trees->raster);
     if (in.wind && in.wind->table) unique.insert(*in.wind->table);
     if (in.landscape)
         for (const auto& file : files_of(in.landscape->fuel)) unique.insert(file);

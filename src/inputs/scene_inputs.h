@@ -25,12 +25,13 @@ struct SceneInputs {
     Raster<std::uint8_t> cover;            ///< index into the surface library of unburnt ground
     std::vector<std::string> cover_names;  ///< what the indices mean (surface spectrum names)
     std::optional<Raster<float>> arrival_time_s;
-    fire::FrontInputs front;               ///< what the scenario's flame relations read
-    Raster<std::uint8_t> scar_class;       ///< see fire::FrameInputs::scar_class
-    std::optional<ModelledFire> modelled;  ///< of a spread model; heat flux comes from it
-    std::vector<FrameSource> frames;       ///< of the heat flux, ascending in time
-    Vec3 origin_m;                         ///< map x, y of the scene frame's origin (centre of the grid), z = 0
-    gis::Geodetic centre;                  ///< of the map, at mean terrain height
+    fire::FrontInputs front;                ///< what the scenario's flame relations read
+    Raster<std::uint8_t> scar_class;        ///< see fire::FrameInputs::scar_class
+    std::optional<WindLevels> wind_levels;  ///< where inputs.wind says its height
+    std::optional<ModelledFire> modelled;   ///< of a spread model; heat flux comes from it
+    std::vector<FrameSource> frames;        ///< of the heat flux, ascending in time
+    Vec3 origin_m;                          ///< map x, y of the scene frame's origin (centre of the grid), z = 0
+    gis::Geodetic centre;                   ///< of the map, at mean terrain height
     double lowest_m = 0.0, highest_m = 0.0, mean_height_m = 0.0;
 };
 

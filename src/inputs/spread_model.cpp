@@ -19,13 +19,10 @@
 namespace pyroscene::inputs {
 namespace {
 
-using scenario::QuantitySource;
 using scenario::Scenario;
 using scenario::ShapesSource;
 using scenario::SpreadSource;
 using spread::Field;
-
-int first_band(const scenario::RasterSource& source) { return source.bands.empty() ? 1 : source.bands.front(); }
 
 gis::Shapes shapes_of(const Scenario& scenario, const ShapesSource& source, const char* key, const MapGrid& grid) {
     if (source.file) return gis::read_shapes({*source.file, source.layer, source.crs}, grid);
@@ -72,16 +69,6 @@ std::vector<spread::Seed> seeds_of(const Scenario& scenario, const MapGrid& grid
     return seeds;
 }
 
-Field static_field(const QuantitySource& source, const char* name, const char* unit, const MapGrid& grid) {
-    if (!source.raster) return {source.value};
-    // With a scale the values have no unit of the file's but that of the key.
-    auto raster = gis::read_band({source.raster->files.front(), first_band(*source.raster), gis::Resampling::Bilinear, name,
-                                  source.scale == 1.0 ? unit : ""},
-                                 grid);
-    for (float& v : raster.values) v = static_cast<float>(v * source.scale);
-    return compact_field(std::move(raster));
-}
-
 spread::Landscape landscape_of(const Scenario& scenario, const Raster<float>& terrain_m) {
     const auto& source = *scenario.inputs.spread;
     const MapGrid& grid = terrain_m.grid;
@@ -96,15 +83,15 @@ spread::Landscape landscape_of(const Scenario& scenario, const Raster<float>& te
     auto slope = fire::terrain_slope(terrain_m);
     land.slope_east = std::move(slope.east);
     land.slope_north = std::move(slope.north);
-    land.canopy_cover = static_field(source.canopy_cover, "canopy cover", "1", grid);
-    land.canopy_height_m = static_field(source.canopy_height_m, "canopy height", "m", grid);
-    land.crown_ratio = {source.crown_ratio};
+    land.canopy_cover = field_of(source.canopy.cover, "canopy cover", "1", grid);
+    land.canopy_height_m = field_of(source.canopy.height_m, "canopy height", "m", grid);
+    land.crown_ratio = {source.canopy.crown_ratio};
     return land;
 }
 
 }  // namespace
 
-ModelledFire spread_own_fire(const Scenario& scenario, const Raster<float>& terrain_m,
+ModelledFire spread_own_fire(const Scenario& scenario, const Raster<float>& terrain_m, const WindLevels* levels,
                              const std::function<void(double)>& on_progress) {
     const auto& source = *scenario.inputs.spread;
     const auto land = landscape_of(scenario, terrain_m);
@@ -112,8 +99,10 @@ ModelledFire spread_own_fire(const Scenario& scenario, const Raster<float>& terr
     const auto subject = fmt::format("{}:{}: inputs.spread.ignition", scenario.path.string(),
                                      source.ignition.empty() ? source.line : source.ignition.front().line_number);
     if (seeds.empty()) throw input_error(subject, "lies outside the map; expected a place on it");
-    const auto weather = spread_weather(scenario, terrain_m.grid);
-    auto spread = spread::spread_fire(land, weather, source.rules, seeds, source.frames.times_s.back(), on_progress);
+    const auto weather = spread_weather(scenario, terrain_m.grid, levels);
+    auto rules = source.rules;
+    if (levels != nullptr) rules.wind_height = spread::WindHeight::TwentyFeet;
+    auto spread = spread::spread_fire(land, weather, rules, seeds, source.frames.times_s.back(), on_progress);
     const auto& arrival = spread.arrival_time_s.values;
     if (std::all_of(arrival.begin(), arrival.end(), [](float t) { return std::isnan(t); }))
         throw input_error(subject, "lights nothing: there is no fuel that burns, it is too wet, or the end comes before it");
@@ -138,7 +127,7 @@ std::vector<std::filesystem::path> spread_files(const SpreadSource& source) {
     const auto add = [&](const std::optional<std::filesystem::path>& file) {
         if (file) files.push_back(*file);
     };
-    const auto add_raster = [&](const QuantitySource& quantity) {
+    const auto add_raster = [&](const scenario::QuantitySource& quantity) {
         if (quantity.raster) files.insert(files.end(), quantity.raster->files.begin(), quantity.raster->files.end());
     };
     add(source.moisture_table);
@@ -146,8 +135,8 @@ std::vector<std::filesystem::path> spread_files(const SpreadSource& source) {
     for (const auto& shapes : source.barriers) add(shapes.file);
     if (const auto& moisture = source.moisture_raster)
         files.insert(files.end(), moisture->files.begin(), moisture->files.end());
-    add_raster(source.canopy_cover);
-    add_raster(source.canopy_height_m);
+    add_raster(source.canopy.cover);
+    add_raster(source.canopy.height_m);
     return files;
 }
 

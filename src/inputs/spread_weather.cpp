@@ -91,13 +91,24 @@ spread::Field compact_field(Raster<float> raster) {
     return {0.0, std::move(raster)};
 }
 
+spread::Field field_of(const scenario::QuantitySource& source, const char* name, const char* unit, const MapGrid& grid) {
+    if (!source.raster) return {source.value};
+    // With a scale the values have no unit of the file's but that of the key.
+    auto raster =
+        gis::read_band({source.raster->files.front(), source.raster->bands.empty() ? 1 : source.raster->bands.front(),
+                        gis::Resampling::Bilinear, name, source.scale == 1.0 ? unit : ""},
+                       grid);
+    for (float& v : raster.values) v = static_cast<float>(v * source.scale);
+    return compact_field(std::move(raster));
+}
+
 std::size_t holding(const std::vector<double>& times_s, double time_s) {
     std::size_t i = 0;
     while (i + 1 < times_s.size() && times_s[i + 1] <= time_s) ++i;
     return i;
 }
 
-std::vector<spread::Weather> spread_weather(const Scenario& scenario, const MapGrid& grid) {
+std::vector<spread::Weather> spread_weather(const Scenario& scenario, const MapGrid& grid, const WindLevels* levels) {
     const auto& source = *scenario.inputs.spread;
     const MoistureTable table(source);
     const MoistureRasters rasters(source);
@@ -109,7 +120,7 @@ std::vector<spread::Weather> spread_weather(const Scenario& scenario, const MapG
         if (time_s < 0.0 || time_s > source.frames.times_s.back()) continue;
         auto& w = weather.emplace_back();
         w.from_s = time_s;
-        auto wind = wind_at(scenario, grid, 1, 0, time_s);
+        auto wind = wind_at(scenario, grid, 1, 0, time_s, levels);
         w.wind_east_m_s = compact_field(std::move(wind.east_m_s));
         w.wind_north_m_s = compact_field(std::move(wind.north_m_s));
         for (std::size_t c = 0; c < kMoistureColumns.size(); ++c) {

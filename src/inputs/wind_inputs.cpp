@@ -112,8 +112,11 @@ std::vector<FrameSource> frame_bands(const RasterSource& source) {
     return frames;
 }
 
-gis::Wind wind_at(const scenario::Scenario& scenario, const MapGrid& grid, std::size_t frame_count, std::size_t frame,
-                  double time_s) {
+namespace {
+
+/// As it is given.
+gis::Wind given_wind(const scenario::Scenario& scenario, const MapGrid& grid, std::size_t frame_count, std::size_t frame,
+                     double time_s) {
     const auto& wind = scenario.inputs.wind;
     if (wind && wind->raster) {
         const auto pair = wind_pair(*wind->raster, frame_count, frame, time_s);
@@ -133,6 +136,19 @@ gis::Wind wind_at(const scenario::Scenario& scenario, const MapGrid& grid, std::
     const double to_grid_rad = from_rad + kPi - convergence;
     return {Raster<float>(grid, "wind east", "m s-1", static_cast<float>(speed * std::sin(to_grid_rad))),
             Raster<float>(grid, "wind north", "m s-1", static_cast<float>(speed * std::cos(to_grid_rad)))};
+}
+
+}  // namespace
+
+gis::Wind wind_at(const scenario::Scenario& scenario, const MapGrid& grid, std::size_t frame_count, std::size_t frame,
+                  double time_s, const WindLevels* levels) {
+    auto wind = given_wind(scenario, grid, frame_count, frame, time_s);
+    if (levels == nullptr) return wind;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        wind.east_m_s.values[i] *= levels->to_twenty_feet.values[i];
+        wind.north_m_s.values[i] *= levels->to_twenty_feet.values[i];
+    }
+    return wind;
 }
 
 std::vector<double> wind_times_s(const scenario::Scenario& scenario) {

@@ -146,7 +146,11 @@ scenario::Scenario with_wrf_inputs(scenario::Scenario s) {
         else
             missing("TIGN_G", "clocks of scars start at the records that show them burning");
     }
-    if (!in.wind) in.wind = wind(wrf, series, s.notes);
+    if (!in.wind || !in.wind->has_source())
+        if (auto found = wind(wrf, series, s.notes)) {
+            if (!in.wind) in.wind.emplace();
+            in.wind->raster = std::move(found->raster);
+        }
     if (!in.cover && !source.fuel_table.empty()) {
         if (!wrf.has("NFUEL_CAT")) throw input_error(file, "has no NFUEL_CAT, which fuel_table is about");
         in.cover = scenario::CoverSource{

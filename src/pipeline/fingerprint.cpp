@@ -52,6 +52,21 @@ std::string text(const scenario::QuantitySource& q) {
     return fmt::format("{}|{}|", q.value, q.scale) + (q.raster ? text(*q.raster) : "-;");
 }
 
+std::string text(const scenario::CanopySource& c) {
+    return text(c.cover) + text(c.height_m) + fmt::format("{};", c.crown_ratio);
+}
+
+std::string text(const scenario::WindSource& w) {
+    std::string out = fmt::format("{}|{};", w.speed_m_s, w.from_deg) + text(w.canopy);
+    if (w.raster) out += text(*w.raster);
+    out += w.table ? "table;" : "";
+    if (const auto& n = w.windninja)
+        out += fmt::format("{}|{}|{}|{};", n->unit, n->crs, n->grid_north, fmt::join(n->times_s, ","));
+    if (const auto& l = w.level)
+        out += fmt::format("{}|{}|{};", static_cast<int>(l->kind), l->height_m, l->roughness_m.value_or(0.0));
+    return out + fmt::format("{};", w.fuel_depth_m.value_or(0.0));
+}
+
 std::string text(const scenario::FuelSource& s) {
     return text(s.raster) + fmt::format("{}|{};", s.table, fmt::join(s.nonburnable, ","));
 }
@@ -70,10 +85,10 @@ std::string spread_text(const scenario::SpreadSource& s) {
     std::string out = text(s.fuel) + text(s.ignition) + text(s.barriers);
     for (const auto& m : s.moisture_pct) out += fmt::format("{}|", m.value_or(-1.0));
     out += s.moisture_raster ? text(*s.moisture_raster) : "-;";
-    out += text(s.canopy_cover) + text(s.canopy_height_m);
-    return out + fmt::format("{}|{}|{}|{}|{}|{}|{};", s.crown_ratio, static_cast<int>(s.rules.wind_height),
-                             static_cast<int>(s.rules.curing), s.rules.wind_limit, fmt::join(s.frames.times_s, ","),
-                             s.frames.mean_over_s, s.frames.coarse_burn_time_s);
+    out += text(s.canopy);
+    return out + fmt::format("{}|{}|{}|{}|{}|{};", static_cast<int>(s.rules.wind_height), static_cast<int>(s.rules.curing),
+                             s.rules.wind_limit, fmt::join(s.frames.times_s, ","), s.frames.mean_over_s,
+                             s.frames.coarse_burn_time_s);
 }
 
 std::string fire_text(const Scenario& s) {
@@ -95,11 +110,7 @@ std::string fire_text(const Scenario& s) {
     if (s.inputs.landscape) out += text(s.inputs.landscape->fuel) + s.inputs.landscape->crs;
     if (s.inputs.spread) out += spread_text(*s.inputs.spread);
     if (s.inputs.arrival_model) out += text(*s.inputs.arrival_model);
-    if (s.inputs.wind) {
-        out += fmt::format("{}|{};", s.inputs.wind->speed_m_s, s.inputs.wind->from_deg);
-        if (s.inputs.wind->raster) out += text(*s.inputs.wind->raster);
-        out += s.inputs.wind->table ? "table;" : "";
-    }
+    if (s.inputs.wind) out += text(*s.inputs.wind);
     return out + fmt::format("{}|{}|{}", s.map_crs.value_or(""), s.map_cell_m.value_or(0.0), s.geoid_undulation_m);
 }
 

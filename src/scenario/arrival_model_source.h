@@ -12,7 +12,7 @@ namespace pyroscene::scenario {
 
 /// Units that a scenario may say.
 inline const std::vector<std::string> kTimeUnits{"s", "min", "h"}, kIntensityUnits{"W/m", "kW/m", "Btu/ft/s"},
-    kLengthUnits{"m", "ft"}, kRateUnits{"m/s", "m/min", "ft/min", "chain/h"};
+    kLengthUnits{"m", "ft"}, kSpeedUnits{"m/s", "mph", "km/h", "kt"}, kRateUnits{"m/s", "m/min", "ft/min", "chain/h"};
 
 /// A raster whose unit the scenario says.
 struct UnitRaster {

@@ -15,7 +15,7 @@ struct SourceShape {
     bool series = false;
     std::size_t bands_per_frame = 1;
 };
-constexpr SourceShape kStatic{false, 1}, kScalarSeries{true, 1}, kVectorSeries{true, 2};
+constexpr SourceShape kStatic{false, 1}, kScalarSeries{true, 1};
 
 bool given_twice(const config::Node& node, const char* one, const char* several) {
     if (!node.has(one) || !node.has(several)) return false;
@@ -111,36 +111,6 @@ std::optional<RasterSource> read_optional(const config::Node& node, const fs::pa
     return source;
 }
 
-WindSource read_wind(const config::Node& node, const fs::path& folder) {
-    WindSource wind;
-    if (!node.is_map()) {
-        node.finish();
-        return wind;
-    }
-    if (node.has("speed")) given_twice(node, "speed", "speed_m_s");
-    constexpr config::Range kSpeed = config::Range::between(0.0, 100.0);
-    const auto short_name = node.optional_number("speed", kSpeed), speed = node.optional_number("speed_m_s", kSpeed);
-    const auto from_deg = node.optional_number("from_deg", config::Range::between(-360.0, 360.0));
-    const bool uniform = node.has("speed") || node.has("speed_m_s") || node.has("from_deg");
-    const bool raster = node.has("file") || node.has("files");
-    for (const char* key : {"file", "files", "bands", "times_s"}) node.ignore(key);
-    if (const auto table = node.child("table"); table.present()) {
-        wind.table = read_file_name(table, folder);
-        if (uniform || raster) table.report("stands alone; give it, rasters, or 'speed' and 'from_deg'");
-        node.finish();
-        return wind;
-    }
-    if (uniform && raster) node.report("give rasters or 'speed' and 'from_deg', not both");
-    if (uniform && !raster && !node.has("speed") && !node.has("speed_m_s")) node.report("key 'speed' is missing");
-    if (uniform && !raster && !node.has("from_deg")) node.report("key 'from_deg' is missing (where the wind comes from)");
-    if (!uniform && !raster) node.report("expected 'file' or 'files' with u and v, 'table', or 'speed' and 'from_deg'");
-    if (raster) wind.raster = read_source(node, folder, kVectorSeries);
-    wind.speed_m_s = speed.value_or(short_name.value_or(0.0));
-    wind.from_deg = from_deg.value_or(wind.from_deg);
-    node.finish();
-    return wind;
-}
-
 CoverSource read_cover(const config::Node& node, const fs::path& folder) {
     CoverSource cover;
     if (!node.is_map()) {
@@ -207,9 +177,12 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     inputs.fireline_intensity = read_optional(node.child("fireline_intensity"), folder, kStatic);
     inputs.flame_length = read_optional(node.child("flame_length"), folder, kStatic);
     inputs.spread_rate = read_optional(node.child("spread_rate"), folder, kStatic);
-    if (const auto wind = node.child("wind"); wind.present()) inputs.wind = read_wind(wind, folder);
+    if (const auto wind = node.child("wind"); wind.present())
+        inputs.wind = read_wind(wind, folder, inputs.wrf_sfire.has_value());
     if (const auto cover = node.child("cover"); cover.present()) inputs.cover = read_cover(cover, folder);
     if (const auto plume = node.child("plume"); plume.present()) inputs.plume = read_plume_source(plume, folder);
+    if (inputs.spread && inputs.spread->says_wind_height && inputs.wind && inputs.wind->level)
+        spread.child("wind_height").report("'inputs.wind.height' says it; give one of the two");
     if (inputs.landscape) add_landscape(*inputs.landscape, inputs);
     node.finish();
     return inputs;

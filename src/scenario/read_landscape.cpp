@@ -33,12 +33,15 @@ void add_landscape(const LandscapeSource& landscape, Inputs& inputs) {
     if (inputs.terrain.files.empty()) inputs.terrain = band_of(landscape, kElevation, fuel.raster.line);
     if (!inputs.cover && is_shipped_fuel_table(fuel.table)) inputs.cover = CoverSource{fuel.raster, fuel.table};
     if (inputs.arrival_model && inputs.arrival_model->fuel.raster.files.empty()) inputs.arrival_model->fuel = fuel;
-    if (!inputs.spread) return;
-    auto& spread = *inputs.spread;
-    if (spread.fuel.raster.files.empty()) spread.fuel = fuel;
-    if (spread.has_canopy) return;
-    spread.canopy_cover.raster = band_of(landscape, kCanopyCover, fuel.raster.line);
-    spread.canopy_height_m.raster = band_of(landscape, kCanopyHeight, fuel.raster.line);
+    if (inputs.spread && inputs.spread->fuel.raster.files.empty()) inputs.spread->fuel = fuel;
+    const auto add_trees = [&](CanopySource& canopy) {
+        if (canopy.given) return;
+        canopy.given = true;
+        canopy.cover.raster = band_of(landscape, kCanopyCover, fuel.raster.line);
+        canopy.height_m.raster = band_of(landscape, kCanopyHeight, fuel.raster.line);
+    };
+    if (inputs.spread) add_trees(inputs.spread->canopy);
+    if (inputs.wind && inputs.wind->level && !inputs.spread) add_trees(inputs.wind->canopy);
 }
 
 }  // namespace pyroscene::scenario

@@ -103,6 +103,16 @@ void read_moisture(const config::Node& node, const fs::path& folder, SpreadSourc
 
 }  // namespace
 
+CanopySource read_canopy(const config::Node& node, const fs::path& folder) {
+    CanopySource canopy;
+    canopy.given = node.present();
+    canopy.cover = read_quantity(node.child("cover"), folder, 0.0, Range::between(0.0, 1.0));
+    canopy.height_m = read_quantity(node.child("height_m"), folder, 0.0, Range::between(0.0, 150.0));
+    canopy.crown_ratio = node.number("crown_ratio", canopy.crown_ratio, Range::between(0.0, 1.0));
+    node.finish();
+    return canopy;
+}
+
 SpreadSource read_spread(const config::Node& node, const fs::path& folder, bool has_landscape) {
     SpreadSource source;
     source.line = node.line();
@@ -115,12 +125,8 @@ SpreadSource read_spread(const config::Node& node, const fs::path& folder, bool 
     source.ignition = read_all_shapes(node.required_child("ignition"), folder, true);
     source.barriers = read_all_shapes(node.child("barriers"), folder, false);
     read_moisture(node.required_child("moisture"), folder, source);
-    const auto canopy = node.child("canopy");
-    source.has_canopy = canopy.present();
-    source.canopy_cover = read_quantity(canopy.child("cover"), folder, 0.0, Range::between(0.0, 1.0));
-    source.canopy_height_m = read_quantity(canopy.child("height_m"), folder, 0.0, Range::between(0.0, 150.0));
-    source.crown_ratio = canopy.number("crown_ratio", source.crown_ratio, Range::between(0.0, 1.0));
-    canopy.finish();
+    source.canopy = read_canopy(node.child("canopy"), folder);
+    source.says_wind_height = node.has("wind_height");
     const auto height = node.choice("wind_height", "20ft", {"midflame", "20ft", "10m"});
     source.rules.wind_height = height == "midflame" ? spread::WindHeight::Midflame
                                : height == "10m"    ? spread::WindHeight::TenMetres

@@ -36,6 +36,10 @@ WrfSource read_wrf(const config::Node& node, const std::filesystem::path& folder
 std::string read_fuel_table(const config::Node& node, const std::filesystem::path& folder);
 /// \param has_landscape  which gives fuel (and canopy) where the node does not
 SpreadSource read_spread(const config::Node& node, const std::filesystem::path& folder, bool has_landscape);
+/// Trees: cover, height_m, crown_ratio.
+CanopySource read_canopy(const config::Node& node, const std::filesystem::path& folder);
+/// \param beside_model  a coupled model brings a wind of its own
+WindSource read_wind(const config::Node& node, const std::filesystem::path& folder, bool beside_model);
 LandscapeSource read_landscape(const config::Node& node, const std::filesystem::path& folder);
 /// Gives the inputs that are not there the landscape's bands.
 void add_landscape(const LandscapeSource& landscape, Inputs& inputs);

@@ -18,14 +18,32 @@
 #include "scenario/raster_source.h"
 #include "scenario/spread_source.h"
 #include "scenario/wrf_source.h"
+#include "spread/wind_profile.h"
 
 namespace pyroscene::scenario {
 
-/// Wind as rasters (u, v bands) or as one vector for the whole map, constant or from a table of a weather station.
+/// Rasters of speed and direction, as WindNinja writes them.
+struct WindNinjaSource {
+    std::vector<std::filesystem::path> speed, angle;  ///< one each per moment
+    std::string unit;                                 ///< of the speeds: m/s, mph, km/h, kt
+    std::string crs;                                  ///< of files that do not say theirs
+    bool grid_north = false;      ///< angles count from the y axis of the files' map, else from true north
+    std::vector<double> times_s;  ///< one per moment; empty = one for all times
+};
+
+/// Wind as rasters (u, v bands) or as one vector for the whole map, constant or from a table of a weather station. With none of them
+/// that of a coupled model's files, of which the rest then speaks.
 struct WindSource {
+    std::optional<WindNinjaSource> windninja;
+    std::optional<spread::WindLevel> level;  ///< where it blows; absent = taken as it is by whatever asks for it
+    std::optional<double> fuel_depth_m;      ///< everywhere, instead of that of the fuel models
+    CanopySource canopy;                     ///< that shelters the flames; absent = that of `spread`
+    bool speed_given = false;
     std::optional<RasterSource> raster;  ///< `bands` holds {u, v} of the first frame, or is empty: 1, 2 (or pairs per frame)
     double speed_m_s = 0.0, from_deg = 270.0;
     std::optional<std::filesystem::path> table;  ///< CSV: time_s, speed_m_s, from_deg; a row holds until the next
+
+    [[nodiscard]] bool has_source() const noexcept { return raster || windninja || table || speed_given; }
 };
 
 struct CoverSource {

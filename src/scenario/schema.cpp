@@ -311,7 +311,8 @@ constexpr const char* kSchema = R"json({
 
 /// What several keys refer to.
 constexpr const char* kDefinitions =
-    R"json(    "name": {"type": "string", "maxLength": 100, "pattern": "^[A-Za-z0-9][A-Za-z0-9._-]*$"},
+    R"json(    "file_or_files": {"oneOf": [{"type": "string"}, {"type": "array", "minItems": 1, "items": {"type": "string"}}]},
+    "name": {"type": "string", "maxLength": 100, "pattern": "^[A-Za-z0-9][A-Za-z0-9._-]*$"},
     "words": {"type": "array", "minItems": 1, "items": {"type": "string"}},
     "temperature_K": {"type": "number", "minimum": 200, "maximum": 3500},
     "mole_fraction": {"type": "number", "minimum": 0, "maximum": 1},

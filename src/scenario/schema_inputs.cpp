@@ -25,11 +25,13 @@ constexpr std::string_view kShapeKeys = R"json("file": {"type": "string", "descr
             "polygon": {"$ref": "#/$defs/positions"},
             "crs": {"type": "string", "description": "of the coordinates; default: the map's"})json";
 
+std::string quoted(const std::vector<std::string>& words) { return fmt::format(R"("{}")", fmt::join(words, R"(", ")")); }
+
 /// A raster whose unit is said.
 std::string unit_raster(const std::vector<std::string>& units) {
     return fmt::format(R"json({{"type": "object", "additionalProperties": false, "required": ["file"],
-          "properties": {{"file": {{"type": "string"}}, "band": {{"$ref": "#/$defs/band"}}, "unit": {{"enum": ["{}"]}}}}}})json",
-                       fmt::join(units, R"(", ")"));
+          "properties": {{"file": {{"type": "string"}}, "band": {{"$ref": "#/$defs/band"}}, "unit": {{"enum": [{}]}}}}}})json",
+                       quoted(units));
 }
 
 std::string main_keys() {
@@ -90,7 +92,28 @@ std::string wind_keys() {
         "speed_m_s": {"$ref": "#/$defs/wind_speed"},
         "from_deg": {"type": "number", "minimum": -360, "maximum": 360,
           "description": "where the wind comes from, clockwise from true north"},
-        "table": {"type": "string", "description": "CSV file of a station: time_s, speed_m_s, from_deg; instead of the others"}
+        "table": {"type": "string", "description": "CSV file of a station: time_s, speed_m_s, from_deg; instead of the others"},
+        "windninja": {
+          "description": "rasters of speed and direction, one pair for each moment; instead of the others",
+          "type": "object",
+          "additionalProperties": false,
+          "required": ["speed", "unit"],
+          "properties": {
+            "speed": {"$ref": "#/$defs/file_or_files", "description": "..._vel.asc"},
+            "angle": {"$ref": "#/$defs/file_or_files", "description": "..._ang.asc; without it: beside the speeds"},
+            "unit": {"enum": [)json" +
+           quoted(kSpeedUnits) + R"json(]},
+            "north": {"enum": ["true", "grid"], "description": "from which angles count; without it: true"},
+            "crs": {"type": "string", "description": "of files that do not say their own"},
+            "times_s": {"$ref": "#/$defs/times_s"}
+          }
+        },
+        "height": {"enum": ["midflame", "20ft", "10m"], "description": "where the wind blows; without it: taken as it is"},
+        "height_m": {"type": "number", "minimum": 0.5, "maximum": 500, "description": "the same as a number: above the vegetation"},
+        "roughness_m": {"type": "number", "minimum": 1e-5, "maximum": 5,
+          "description": "with height_m, which then counts from the ground; without it: the vegetation's"},
+        "fuel_depth_m": {"type": "number", "exclusiveMinimum": 0, "maximum": 10, "description": "without it: of the fuel models"},
+        "canopy": {"$ref": "#/$defs/canopy", "description": "without it: that of spread or landscape"}
       }
     })json";
 }
@@ -108,7 +131,8 @@ std::string fire_keys() {
           "properties": {
             "file": {"type": "string"}, "band": {"$ref": "#/$defs/band"},
             "files": {"type": "array", "minItems": 1, "items": {"type": "string"}, "description": "ForestGridNN.csv of Cell2Fire, mburnt_integ-TTTTT.bin of QUIC-Fire"},
-            "unit": {"enum": ["s", "min", "h"]},
+            "unit": {"enum": [)json" +
+           quoted(kTimeUnits) + R"json(]},
             "period": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e5, "description": "of Cell2Fire, in 'unit'; without it: 1"}
           }},
         "like": {"type": "string", "description": "raster of the cells of Cell2Fire (its fuels.asc)"},
@@ -189,18 +213,7 @@ std::string spread_keys() {
             "times_s": {"$ref": "#/$defs/times_s"}
           }
         },
-        "canopy": {
-          "description": "trees, which shelter the fuel from the wind",
-          "type": "object",
-          "additionalProperties": false,
-          "properties": {
-            "cover": {"description": "0 to 1, or a raster",
-              "oneOf": [{"type": "number", "minimum": 0, "maximum": 1}, {"$ref": "#/$defs/scaled"}]},
-            "height_m": {"description": "0 to 150, or a raster",
-              "oneOf": [{"type": "number", "minimum": 0, "maximum": 150}, {"$ref": "#/$defs/scaled"}]},
-            "crown_ratio": {"type": "number", "minimum": 0, "maximum": 1, "description": "without it: 0.5"}
-          }
-        },
+        "canopy": {"$ref": "#/$defs/canopy"},
         "wind_height": {"enum": ["midflame", "20ft", "10m"], "description": "without it: 20ft"},
         "wind_limit": {"type": "boolean", "description": "without it: false"},
         "curing": {"enum": ["behave", "linear"], "description": "without it: behave"},
@@ -210,7 +223,19 @@ std::string spread_keys() {
 }
 
 std::string other_keys() {
-    return R"json(    "input_plume": {
+    return R"json(    "canopy": {
+      "description": "trees, which shelter the fuel from the wind",
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "cover": {"description": "0 to 1, or a raster",
+          "oneOf": [{"type": "number", "minimum": 0, "maximum": 1}, {"$ref": "#/$defs/scaled"}]},
+        "height_m": {"description": "0 to 150, or a raster",
+          "oneOf": [{"type": "number", "minimum": 0, "maximum": 150}, {"$ref": "#/$defs/scaled"}]},
+        "crown_ratio": {"type": "number", "minimum": 0, "maximum": 1, "description": "without it: 0.5"}
+      }
+    },
+    "input_plume": {
       "description": "three-dimensional field above the fire, one band per level",
       "type": "object",
       "additionalProperties": false,

@@ -19,6 +19,13 @@ struct QuantitySource {
     double scale = 1.0;  ///< of the raster's values
 };
 
+/// Trees above the fuel.
+struct CanopySource {
+    bool given = false;  ///< the scenario says something of it
+    QuantitySource cover, height_m;
+    double crown_ratio = 0.5;
+};
+
 /// Places on the map: a file of any vector format, or coordinates.
 struct ShapesSource {
     std::optional<std::filesystem::path> file;
@@ -36,10 +43,9 @@ struct SpreadSource {
     std::array<std::optional<double>, spread::kFuelClasses> moisture_pct;  ///< everywhere and always; goes first
     std::optional<RasterSource> moisture_raster;                           ///< five bands for each moment, per cent
     std::optional<std::filesystem::path> moisture_table;                   ///< CSV: time_s and moistures in per cent
-    QuantitySource canopy_cover, canopy_height_m;
-    bool has_canopy = false;  ///< the scenario says something of it
-    double crown_ratio = 0.5;
+    CanopySource canopy;
     spread::SpreadRules rules;
+    bool says_wind_height = false;  ///< the rules' height is not that of inputs.wind
     FireFrames frames;
     int line = 0;
 };

@@ -158,10 +158,19 @@ HeadFire head_fire(const FuelBed& bed, double midflame_m_s, double wind_from_ups
     return head;
 }
 
+namespace {
+
+/// Share of the space below their tops that crowns fill.
+double crown_fill(const Canopy& canopy) noexcept { return canopy.crown_ratio * canopy.cover / 3.0; }
+
+}  // namespace
+
+bool shelters(const Canopy& canopy) noexcept { return crown_fill(canopy) >= 0.05 && canopy.height_m / kFoot_m >= 6.0; }
+
 double wind_adjustment(double fuel_depth_m, const Canopy& canopy) noexcept {
-    const double fill = canopy.crown_ratio * canopy.cover / 3.0, height_ft = canopy.height_m / kFoot_m;
+    const double height_ft = canopy.height_m / kFoot_m;
     const auto profile = [](double h_ft) { return std::log((20.0 + 0.36 * h_ft) / (0.13 * h_ft)); };
-    if (fill >= 0.05 && height_ft >= 6.0) return 0.555 / (std::sqrt(fill * height_ft) * profile(height_ft));
+    if (shelters(canopy)) return 0.555 / (std::sqrt(crown_fill(canopy) * height_ft) * profile(height_ft));
     return 1.83 / profile(fuel_depth_m / kFoot_m);
 }
 

@@ -47,8 +47,10 @@ struct Canopy {
     double height_m = 0.0;
     double crown_ratio = 0.0;  ///< share of the height that is crown, 0..1
 };
-/// Midflame wind / wind 6.1 m (20 ft) above the vegetation, Albini and Baughman (1979, INT-221): sheltered where crowns fill at
-/// least 5 % of the space (cover x crown ratio / 3) and stand 6 ft high.
+/// Whether they shelter the fuel: crowns fill at least 5 % of the space (cover x crown ratio / 3) and stand 6 ft high.
+bool shelters(const Canopy& canopy) noexcept;
+/// Midflame wind / wind 6.1 m (20 ft) above the vegetation, Albini and Baughman (1979, INT-221) as in Andrews (2012,
+/// RMRS-GTR-266): below trees that shelter it, else over the fuel bed.
 double wind_adjustment(double fuel_depth_m, const Canopy& canopy) noexcept;
 /// Wind at 10 m / wind at 6.1 m (20 ft), the usual factor.
 inline constexpr double kTenMetresToTwentyFeet = 1.15;

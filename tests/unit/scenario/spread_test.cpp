@@ -34,7 +34,7 @@ TEST(Spread, ReadsTheShortestFire) {
     EXPECT_EQ(s.rules.wind_height, spread::WindHeight::TwentyFeet);
     EXPECT_EQ(s.rules.curing, spread::Curing::BehavePlus);
     EXPECT_FALSE(s.rules.wind_limit);
-    EXPECT_EQ(s.crown_ratio, 0.5);
+    EXPECT_EQ(s.canopy.crown_ratio, 0.5);
     EXPECT_EQ(s.frames.coarse_burn_time_s, 300.0);
 }
 
@@ -64,8 +64,8 @@ TEST(Spread, ReadsAllItsKeys) {
     EXPECT_EQ(s.barriers.size(), 1U);
     EXPECT_EQ(s.moisture_pct[spread::kHerb], 50.0);
     EXPECT_FALSE(s.moisture_pct[spread::kOneHour]);
-    EXPECT_EQ(s.canopy_cover.raster->bands, std::vector{5});
-    EXPECT_EQ(s.canopy_height_m.scale, 0.1);
+    EXPECT_EQ(s.canopy.cover.raster->bands, std::vector{5});
+    EXPECT_EQ(s.canopy.height_m.scale, 0.1);
     EXPECT_EQ(s.rules.wind_height, spread::WindHeight::TenMetres);
     EXPECT_TRUE(s.rules.wind_limit);
     EXPECT_EQ(s.rules.curing, spread::Curing::Linear);
