@@ -1,4 +1,5 @@
 // A fire that the program spreads itself: its files are those of any fire model, and it feeds the images.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -184,6 +185,32 @@ TEST_F(SpreadScenario, ArrivalTimesOnAFinerMapAreSmoothAndKeepTheHeat) {
     const double load_kg_m2 = report.at("spread/fuel_burnt_kg") / (burnt * 64.0);
     EXPECT_NEAR(load_kg_m2, 0.74 * 0.224170, 1e-3);
     EXPECT_NEAR(report.at("spread/heat_released_J") / (burnt * 64.0 * load_kg_m2 * 17.433e6 / 1.08), 1.0, 1e-6);
+}
+
+// The wind's height said with the wind is that of the spread; one that blows faster higher up spreads the fire as the one below.
+TEST_F(SpreadScenario, WindMayBlowAtAnyHeight) {
+    const auto arrival = [&](const std::string& name, const std::string& wind, const std::string& rule) {
+        const auto file =
+            write_scenario(name, "  wind: {" + wind +
+                                     ", from_deg: 250}\n  spread:\n    fuel: {file: fuel.tif, table: fbfm13}\n"
+                                     "    ignition: [{point: [500200, 5169300]}]\n    moisture: {table: moisture.csv}\n" +
+                                     rule + "    frames_s: [1200]\n");
+        run_phase(&pipeline::spread, file, scratch / name);
+        return gis::read_image(scratch / name / "arrival.tif").pixels;
+    };
+    const auto expect_same = [](const std::vector<float>& a, const std::vector<float>& b) {
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            if (std::isnan(a[i]) && std::isnan(b[i])) continue;
+            ASSERT_NEAR(a[i], b[i], 1e-3F * b[i] + 0.01F) << i;
+        }
+    };
+    const auto twenty = arrival("20ft", "speed: 4", "");
+    EXPECT_EQ(std::count_if(twenty.begin(), twenty.end(), [](float t) { return t > 0.0F; }) > 100, true);
+    expect_same(arrival("said", "speed: 4, height: 20ft", ""), twenty);
+    expect_same(arrival("10m", "speed: 4.6, height: 10m", ""), twenty);
+    expect_same(arrival("rule", "speed: 4.6", "    wind_height: 10m\n"), twenty);
+    // ln(40 / 0.05) / ln(6.096 / 0.05) = 1.391577
+    expect_same(arrival("mast", "speed: 5.566308, height_m: 40, roughness_m: 0.05", ""), twenty);
 }
 
 TEST_F(SpreadScenario, IsTheSameForAnyNumberOfThreads) {

@@ -252,6 +252,18 @@ TEST(Flames, OfEveryTiltMethodStayBelowTheMaximum) {
     }
 }
 
+// A wind of 7.5 m/s above that is 3 m/s at the flames: 500 kW/m lean by 44.79912 degrees (Nelson and Adkins 1986).
+TEST(Flames, LeanWithTheWindAtTheirHeight) {
+    auto in = frame(0.0, {2.5e4F, 2.5e4F}, 7.5F, 0.0F);
+    FrontInputs front;
+    front.midflame_wind = raster(in.heat_flux_W_m2.grid, {0.4F, 1.0F});
+    in.front = &front;
+    const auto s = advance(nullptr, in, FireParameters{});
+    EXPECT_NEAR(s.flame_tilt_rad.at(0, 0) / kDegree_rad, 44.79912, 1e-4);
+    in.front = nullptr;
+    EXPECT_EQ(s.flame_tilt_rad.at(0, 1), advance(nullptr, in, FireParameters{}).flame_tilt_rad.at(0, 1));
+}
+
 TEST(Flames, CountTheSlopeAlongTheWindWhenAsked) {
     auto in = frame(0.0, {2.5e4F, 2.5e4F, 2.5e4F}, 3.0F, 0.0F);  // 500 kW/m
     const auto rise = static_cast<float>(std::tan(20.0 * kDegree_rad));

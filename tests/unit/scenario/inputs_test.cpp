@@ -88,8 +88,9 @@ TEST(Inputs, WindAsRasters) {
 TEST(Inputs, WindIsChecked) {
     const ScenarioFolder folder;
     const auto said = [&](const std::string& value) { return folder.problems(with_inputs("  wind: " + value + "\n")); };
-    EXPECT_EQ(said("{}"),
-              Lines{"5: inputs.wind: expected 'file' or 'files' with u and v, 'table', or 'speed' and 'from_deg'"});
+    EXPECT_EQ(
+        said("{}"),
+        Lines{"5: inputs.wind: expected 'file' or 'files' with u and v, 'table', 'windninja', or 'speed' and 'from_deg'"});
     EXPECT_EQ(said("3"), Lines{"5: inputs.wind: expected a map of keys, found '3'"});
     EXPECT_EQ(said("{speed: 3}"), Lines{"5: inputs.wind: key 'from_deg' is missing (where the wind comes from)"});
     EXPECT_EQ(said("{from_deg: 3}"), Lines{"5: inputs.wind: key 'speed' is missing"});

@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""Writes the sample files of this folder: one fire as a dozen programs would hand it out.
+
+    /usr/bin/python3 make_inputs.py FOLDER        (numpy and GDAL's Python bindings)
+
+FOLDER holds case B of the propagation references (tests/data/propagation and its elevations): a fire that Pyretechnics and ELMFIRE
+spread over a hill with two fuels. Their arrival times are real outputs of the two programs, cut to the part that burnt; the others are
+those of Pyretechnics in the format that each program documents.
+"""
+import struct
+import sys
+from pathlib import Path
+
+import numpy as np
+from osgeo import gdal, osr
+
+gdal.UseExceptions()
+source, here = Path(sys.argv[1]), Path(__file__).parent
+TOP, LEFT, ROWS, COLS, CELL = 20, 0, 100, 90, 20.0
+WEST, NORTH = 498500.0 + LEFT * CELL, 4001500.0 - TOP * CELL
+SOUTH = NORTH - ROWS * CELL
+NODATA = -9999.0
+utm = osr.SpatialReference()
+utm.ImportFromEPSG(32611)
+
+
+def cut(name):
+    return gdal.Open(str(source / name)).ReadAsArray()[TOP:TOP + ROWS, LEFT:LEFT + COLS].astype(float)
+
+
+def tif(name, bands, kind=gdal.GDT_Float32, nodata=NODATA, units=()):
+    out = gdal.GetDriverByName("GTiff").Create(str(here / name), COLS, ROWS, len(bands), kind, ["COMPRESS=DEFLATE", "PREDICTOR=%d" % (3 if kind == gdal.GDT_Float32 else 2)])
+    out.SetGeoTransform((WEST, CELL, 0, NORTH, 0, -CELL))
+    out.SetProjection(utm.ExportToWkt())
+    for i, band in enumerate(bands):
+        out.GetRasterBand(i + 1).WriteArray(band)
+        if nodata is not None:
+            out.GetRasterBand(i + 1).SetNoDataValue(nodata)
+        if i < len(units):
+            out.GetRasterBand(i + 1).SetUnitType(units[i])
+    out.FlushCache()
+
+
+def asc(name, values, cell=CELL, form="%.4f", prj=True):
+    rows, cols = values.shape
+    text = "ncols %d\nnrows %d\nxllcorner %g\nyllcorner %g\ncellsize %g\nNODATA_value -9999\n" % (cols, rows, WEST, SOUTH, cell)
+    text += "\n".join(" ".join("-9999" if v == NODATA else form % v for v in row) for row in values) + "\n"
+    (here / name).write_text(text)
+    if prj:
+        esri = utm.Clone()
+        esri.MorphToESRI()
+        (here / name).with_suffix(".prj").write_text(esri.ExportToWkt())
+
+
+def record(data):
+    return struct.pack("<i", len(data)) + data + struct.pack("<i", len(data))
+
+
+dem, fuel = cut("B_dem_m.tif"), cut("B_fuel.tif")
+arrival, elmfire, intensity = cut("B_toa_pyretechnics_s.tif"), cut("B_toa_elmfire_s.tif"), cut("B_fli_pyretechnics_kW_m.tif")
+burnt = (arrival != NODATA) & (intensity != NODATA)
+arrival[~burnt], intensity[~burnt] = NODATA, NODATA
+
+
+def where_burnt(values):
+    return np.where(burnt, values, NODATA)
+
+
+tif("dem.tif", [np.round(dem, 2)], nodata=None, units=["m"])
+tif("fuel.tif", [fuel], gdal.GDT_Int16, None)
+# FARSITE: hours; two files that share one .prj.
+asc("farsite.toa", where_burnt(arrival / 3600.0), form="%.5f")
+asc("farsite.fli", where_burnt(intensity), form="%.1f")
+# FlamMap, MTT: minutes and Btu/ft/s in one GeoTIFF.
+tif("flammap.tif", [np.where(burnt, arrival / 60.0, 0.0), where_burnt(intensity / 3.461469333)])
+# ELMFIRE: seconds.
+tif("time_of_arrival_0000001_0002410.tif", [elmfire])
+# Pyretechnics: minutes, kW/m.
+tif("pyretechnics.tif", [where_burnt(arrival / 60.0), where_burnt(intensity)])
+# ForeFire: seconds, infinity where the front did not come.
+mem = gdal.GetDriverByName("MEM").Create("", COLS, ROWS, 1, gdal.GDT_Float32)
+mem.SetGeoTransform((WEST, CELL, 0, NORTH, 0, -CELL))
+mem.SetProjection(utm.ExportToWkt())
+mem.GetRasterBand(1).WriteArray(np.where(burnt, arrival, np.inf))
+mem.GetRasterBand(1).SetMetadataItem("NETCDF_VARNAME", "arrival_time_of_front")
+gdal.GetDriverByName("netCDF").CreateCopy(str(here / "forefire.nc"), mem, options=["FORMAT=NC4", "COMPRESS=DEFLATE"])
+# Cell2Fire: messages between cells counted from 1, minutes; surface intensity as .asc.
+asc("fuels.asc", fuel, form="%d")
+asc("SurfaceIntensity1.asc", where_burnt(intensity), form="%.0f", prj=False)
+lines = []
+for cell in sorted(np.flatnonzero(burnt), key=lambda c: arrival.flat[c]):
+    row, col = divmod(int(cell), COLS)
+    near = [(arrival[r, c], r * COLS + c + 1) for r in range(max(row - 1, 0), min(row + 2, ROWS)) for c in range(max(col - 1, 0), min(col + 2, COLS)) if burnt[r, c]]
+    time, sender = min(near)
+    if time < arrival[row, col]:
+        lines.append("%d,%d,%.3f,%.1f" % (sender, cell + 1, arrival[row, col] / 60.0, CELL * 60.0 / (arrival[row, col] - time)))
+(here / "MessagesFile01.csv").write_text("\n".join(lines) + "\n")
+# QUIC-Fire: per cent of mass burnt every 200 s on cells of 40 m, one record, from the south.
+coarse = arrival[::2, ::2]
+for time in range(0, 2401, 200):
+    share = np.where((coarse != NODATA) & (coarse <= time), np.minimum(100.0, 5.0 + (time - coarse) / 6.0), 0.0)
+    (here / ("mburnt_integ-%05d.bin" % time)).write_bytes(record(share[::-1].astype("<f4").tobytes()))
+# FDS: arrival at the nodes of a mesh (here: the centres of the cells) in one horizontal slice, 1e6 where the fire did not come.
+nodes_x, nodes_y = np.arange(COLS) * CELL + CELL / 2, np.arange(ROWS) * CELL + CELL / 2
+smv = "TITLE\n hill, level set\n\nNMESHES\n 1\n\nGRID   MESH_00000001\n %d %d 10 1\n\nPDIM\n %g %g %g %g 0 100 0 0 0\n\nTRNX\n 0\n" % (COLS - 1, ROWS - 1, nodes_x[0], nodes_x[-1], nodes_y[0], nodes_y[-1])
+smv += "".join(" %d %g\n" % (i, x) for i, x in enumerate(nodes_x)) + "\nTRNY\n 0\n" + "".join(" %d %g\n" % (i, y) for i, y in enumerate(nodes_y))
+smv += "\nSLCF  1 # STRUCTURED & 0 %d 0 %d 1 1 ! 1 0\n hill_1_1.sf\n FIRE ARRIVAL TIME\n time\n s\n" % (COLS - 1, ROWS - 1)
+(here / "hill.smv").write_text(smv)
+body = b"".join(record(text.ljust(30).encode()) for text in ("FIRE ARRIVAL TIME", "time", "s"))
+body += record(struct.pack("<6i", 0, COLS - 1, 0, ROWS - 1, 1, 1))
+body += record(struct.pack("<f", 2400.0)) + record(np.where(burnt, arrival, 1e6)[::-1].astype("<f4").tobytes())
+(here / "hill_1_1.sf").write_bytes(body)
+# WindNinja: a wind from 255 degrees, 9 mph, faster over the hill, on cells of 100 m.
+height = dem.reshape(20, 5, 18, 5).mean(axis=(1, 3))
+asc("hill_255_9_100m_vel.asc", 9.0 * (0.9 + 0.3 * height / height.max()), 100.0, "%.2f")
+asc("hill_255_9_100m_ang.asc", 255.0 + 15.0 * (np.linspace(-1, 1, 20)[:, None] * np.ones(18)), 100.0, "%.0f")
+asc("hill_255_9_100m_cld.asc", 0.1 * np.ones((20, 18)), 100.0, "%.1f")
+(here / "station.csv").write_text("# a mast of 10 m, every 15 minutes\ntime_s,speed_m_s,from_deg\n0,4.6,255\n900,4.9,262\n1800,4.2,248\n")
