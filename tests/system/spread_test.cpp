@@ -198,14 +198,14 @@ TEST_F(SpreadScenario, WindMayBlowAtAnyHeight) {
         run_phase(&pipeline::spread, file, scratch / name);
         return gis::read_image(scratch / name / "arrival.tif").pixels;
     };
-    const auto expect_same = [](const std::vector<float>& a, const std::vector<float>& b) {
+    const auto expect_same = [](const std::vector<double>& a, const std::vector<double>& b) {
         for (std::size_t i = 0; i < a.size(); ++i) {
             if (std::isnan(a[i]) && std::isnan(b[i])) continue;
-            ASSERT_NEAR(a[i], b[i], 1e-3F * b[i] + 0.01F) << i;
+            ASSERT_NEAR(a[i], b[i], 1e-3 * b[i] + 0.01) << i;
         }
     };
     const auto twenty = arrival("20ft", "speed: 4", "");
-    EXPECT_EQ(std::count_if(twenty.begin(), twenty.end(), [](float t) { return t > 0.0F; }) > 100, true);
+    EXPECT_EQ(std::count_if(twenty.begin(), twenty.end(), [](double t) { return t > 0.0; }) > 100, true);
     expect_same(arrival("said", "speed: 4, height: 20ft", ""), twenty);
     expect_same(arrival("10m", "speed: 4.6, height: 10m", ""), twenty);
     expect_same(arrival("rule", "speed: 4.6", "    wind_height: 10m\n"), twenty);
