@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -19,9 +20,9 @@ std::string names_of(const GDALGroup& root) {
     return list;
 }
 
-void read_values(const GDALMDArray& array, NamedArray& out, const std::string& subject, const GdalErrors& errors) {
-    const std::vector<GUInt64> start(out.shape.size(), 0);
-    const std::vector<std::size_t> count(out.shape.begin(), out.shape.end());
+/// \param start, count  along all dimensions of the file
+void read_values(const GDALMDArray& array, const std::vector<GUInt64>& start, const std::vector<std::size_t>& count,
+                 NamedArray& out, const std::string& subject, const GdalErrors& errors) {
     // GDAL converts value by value, which costs more than reading: floats are read as they are.
     const auto read = [&](auto& values, GDALDataType type) {
         if (!array.Read(start.data(), count.data(), nullptr, nullptr, GDALExtendedDataType::Create(type), values.data()))
@@ -49,6 +50,8 @@ void read_values(const GDALMDArray& array, NamedArray& out, const std::string& s
 struct NetcdfFile::Impl {
     std::filesystem::path path;
     DatasetPtr dataset;
+
+    [[nodiscard]] NamedArray read(const std::string& variable, std::optional<std::size_t> record) const;
 };
 
 NetcdfFile::NetcdfFile(const std::filesystem::path& path) {
@@ -68,25 +71,41 @@ NetcdfFile::~NetcdfFile() = default;
 
 const std::filesystem::path& NetcdfFile::path() const noexcept { return impl_->path; }
 
-NamedArray NetcdfFile::read(const std::string& variable) const {
+/// A variable, whole or one position along its first dimension.
+NamedArray NetcdfFile::Impl::read(const std::string& variable, std::optional<std::size_t> record) const {
     const GdalErrors errors;
-    const std::string subject = fmt::format("{}, variable '{}'", impl_->path.string(), variable);
-    const auto root = impl_->dataset->GetRootGroup();
+    const std::string subject = fmt::format("{}, variable '{}'", path.string(), variable);
+    const auto root = dataset->GetRootGroup();
     const auto array = root ? root->OpenMDArray(variable) : nullptr;
     if (!array)
         throw input_error(subject, "not in the file; it has " + (root ? names_of(*root) : std::string("no variables")));
     if (array->GetDataType().GetClass() != GEDTC_NUMERIC) throw input_error(subject, "is text; expected numbers");
     NamedArray out;
     std::size_t size = 1;
+    std::vector<GUInt64> start;
+    std::vector<std::size_t> count;
     for (const auto& dimension : array->GetDimensions()) {
+        const auto length = static_cast<std::size_t>(dimension->GetSize());
+        const bool picked = record && start.empty();
+        if (picked && *record >= length)
+            throw input_error(subject, fmt::format("record {} is asked for, found {}", *record, length));
+        start.push_back(picked ? *record : 0);
+        count.push_back(picked ? 1 : length);
+        if (picked) continue;
         out.dimensions.push_back(dimension->GetName());
-        out.shape.push_back(static_cast<std::size_t>(dimension->GetSize()));
-        size *= out.shape.back();
+        out.shape.push_back(length);
+        size *= length;
     }
     out.unit = array->GetUnit();
     out.values.resize(size);
-    if (size > 0) read_values(*array, out, subject, errors);
+    if (size > 0) read_values(*array, start, count, out, subject, errors);
     return out;
+}
+
+NamedArray NetcdfFile::read(const std::string& variable) const { return impl_->read(variable, std::nullopt); }
+
+NamedArray NetcdfFile::read_record(const std::string& variable, std::size_t record) const {
+    return impl_->read(variable, record);
 }
 
 NamedArray read_netcdf_variable(const std::filesystem::path& path, const std::string& variable) {

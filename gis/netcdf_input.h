@@ -27,6 +27,8 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const noexcept;
     /// Throws an input error naming file and variable.
     [[nodiscard]] NamedArray read(const std::string& variable) const;
+    /// One position along the first dimension, which the result does not have. Throws also when there is no such position.
+    [[nodiscard]] NamedArray read_record(const std::string& variable, std::size_t record) const;
 
 private:
     struct Impl;

@@ -150,10 +150,11 @@ std::string projection_text(const File& file, const Layout& l) {
 
 /// First record of a coordinate of the atmosphere, row by row from the south.
 std::vector<double> coordinates(const File& file, const char* name, const Layout& l) {
-    auto array = read_netcdf_variable(file.path, name);
+    auto array = NetcdfFile(file.path).read_record(name, 0);
     const std::size_t cells = static_cast<std::size_t>(l.cols) * static_cast<std::size_t>(l.rows);
-    if (array.values.size() < cells) throw input_error(file.path.string(), fmt::format("{} is smaller than the grid", name));
-    array.values.resize(cells);
+    if (array.values.size() != cells)
+        throw input_error(file.path.string(), fmt::format("{} has {} values in its first record, expected {}", name,
+                                                          array.values.size(), cells));
     return std::move(array.values);
 }
 

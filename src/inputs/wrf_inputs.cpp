@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "gis/wrf_plume.h"
 #include "gis/wrf_sfire.h"
 
 namespace pyroscene::inputs {
@@ -102,14 +103,37 @@ void check_heat(const gis::WrfSfire& wrf, const Series& series, std::vector<std:
     }
 }
 
+gis::WrfSfire open(const scenario::WrfSource& source) {
+    std::optional<gis::LocalPlacement> placement;
+    if (source.west_m) placement = {source.crs, *source.west_m, *source.south_m};
+    return gis::open_wrf_sfire(source.files, placement);
+}
+
+void check_plume(const gis::WrfSfire& wrf, const std::string& file) {
+    std::vector<std::string> missing;
+    for (const auto& name : gis::wrf_plume_variables())
+        if (!wrf.has(name)) missing.push_back(name);
+    if (!missing.empty())
+        throw input_error(file, fmt::format("has no {}, which inputs.wrf_sfire.plume needs", fmt::join(missing, ", ")));
+}
+
 }  // namespace
+
+std::filesystem::path wrf_plume_levels(const scenario::Scenario& s, double time_s) {
+    const auto wrf = open(*s.inputs.wrf_sfire);
+    const gis::WrfMoment* found = nullptr;
+    for (const auto& moment : wrf.moments)
+        if (moment.unix_s - s.start.unix_s <= time_s) found = &moment;
+    if (found == nullptr)
+        throw input_error(wrf.moments.front().file.string(),
+                          fmt::format("begins after {:g} s, when a plume is needed", time_s));
+    return gis::wrf_plume(wrf, *found, s.inputs.plume->levels_m);
+}
 
 scenario::Scenario with_wrf_inputs(scenario::Scenario s) {
     if (!s.inputs.wrf_sfire) return s;
     const auto& source = *s.inputs.wrf_sfire;
-    std::optional<gis::LocalPlacement> placement;
-    if (source.west_m) placement = {source.crs, *source.west_m, *source.south_m};
-    const auto wrf = gis::open_wrf_sfire(source.files, placement);
+    const auto wrf = open(source);
     const auto file = source.files.front().string();
     const Series series(wrf, s.start.unix_s);
     if (series.moments().empty())
@@ -118,6 +142,8 @@ scenario::Scenario with_wrf_inputs(scenario::Scenario s) {
     if (const auto skipped = wrf.moments.size() - series.moments().size(); skipped > 0)
         s.notes.push_back(fmt::format("{} of {} WRF records lie before the scenario's start and are left out", skipped,
                                       wrf.moments.size()));
+
+    if (source.plume) check_plume(wrf, file);
 
     auto& in = s.inputs;
     if (in.terrain.files.empty()) in.terrain = terrain(wrf, series, file, s.notes);

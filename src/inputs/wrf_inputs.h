@@ -10,4 +10,9 @@ namespace pyroscene::inputs {
 /// is. Input errors: those of gis::open_wrf_sfire, no heat flux or terrain, no record after the scenario's start.
 scenario::Scenario with_wrf_inputs(scenario::Scenario scenario);
 
+/// Excess temperatures over the fire at the last record at or before a time, a band for each of inputs.plume's levels (gis/wrf_plume.h).
+/// Throws an input error without such a record.
+/// \pre inputs.wrf_sfire with a plume
+std::filesystem::path wrf_plume_levels(const scenario::Scenario& scenario, double time_s);
+
 }  // namespace pyroscene::inputs

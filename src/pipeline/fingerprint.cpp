@@ -150,7 +150,7 @@ std::string plume_text(const Scenario& s) {
                            layer.optical_depth_550nm, layer.temperature_K.value_or(-1.0));
     if (const auto& in = s.inputs.plume)
         out += fmt::format("{}|{}|{}|{};", fmt::join(in->times_s, ","), fmt::join(in->levels_m, ","),
-                           static_cast<int>(in->quantity), in->variable);
+                           static_cast<int>(in->quantity), in->of_wrf ? "wrf" : in->variable);
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "gis/raster_input.h"
+#include "inputs/wrf_inputs.h"
 #include "radiometry/smoke.h"
 
 namespace pyroscene::pipeline {
@@ -59,7 +60,7 @@ fire::PlumeParameters parameters_of(const Scenario& scenario) {
 fire::FlameField plume_of_input(const Scenario& scenario, const fire::PlumeParameters& p, const inputs::SceneInputs& in,
                                 double time_s) {
     const PlumeSource& source = *scenario.inputs.plume;
-    const auto file = file_at(source, time_s);
+    const auto file = source.of_wrf ? inputs::wrf_plume_levels(scenario, time_s) : file_at(source, time_s);
     const auto bands = gis::read_info(file).bands.size();
     if (bands != source.levels_m.size())
         throw input_error("inputs.plume.levels_m", fmt::format("{} heights, but '{}' has {} bands; each is a level",

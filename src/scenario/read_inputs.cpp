@@ -140,6 +140,20 @@ RasterSource read_raster_series(const config::Node& node, const fs::path& folder
     return read_source(node, folder, {true, bands_per_frame});
 }
 
+namespace {
+
+/// Levels from near the ground, where layers are thin, to above most plumes.
+PlumeSource plume_of_wrf(const WrfSource& wrf) {
+    PlumeSource plume;
+    plume.files = wrf.files;
+    plume.of_wrf = true;
+    plume.quantity = PlumeSource::Quantity::Excess;
+    plume.levels_m = {5, 15, 30, 50, 75, 100, 140, 190, 250, 320, 400, 500, 650, 800, 1000, 1250, 1500, 2000};
+    return plume;
+}
+
+}  // namespace
+
 Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     Inputs inputs;
     if (!node.present()) return inputs;
@@ -180,7 +194,13 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     if (const auto wind = node.child("wind"); wind.present())
         inputs.wind = read_wind(wind, folder, inputs.wrf_sfire.has_value());
     if (const auto cover = node.child("cover"); cover.present()) inputs.cover = read_cover(cover, folder);
-    if (const auto plume = node.child("plume"); plume.present()) inputs.plume = read_plume_source(plume, folder);
+    if (const auto plume = node.child("plume"); plume.present()) {
+        inputs.plume = read_plume_source(plume, folder);
+        if (inputs.wrf_sfire && inputs.wrf_sfire->plume)
+            plume.report("'wrf_sfire' brings a plume of its own; give one of the two");
+    } else if (inputs.wrf_sfire && inputs.wrf_sfire->plume) {
+        inputs.plume = plume_of_wrf(*inputs.wrf_sfire);
+    }
     if (inputs.spread && inputs.spread->says_wind_height && inputs.wind && inputs.wind->level)
         spread.child("wind_height").report("'inputs.wind.height' says it; give one of the two");
     if (inputs.landscape) add_landscape(*inputs.landscape, inputs);

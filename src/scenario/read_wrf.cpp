@@ -28,6 +28,7 @@ WrfSource read_wrf(const config::Node& node, const fs::path& folder) {
     const bool whole = wrf.crs.empty() ? !wrf.west_m && !wrf.south_m : wrf.west_m && wrf.south_m;
     if (!whole) node.report("an idealised run is placed by 'crs', 'west_m' and 'south_m' together");
     if (const auto table = node.child("fuel_table"); table.present()) wrf.fuel_table = read_fuel_table(table, folder);
+    wrf.plume = node.boolean("plume", false);
     node.finish();
     return wrf;
 }

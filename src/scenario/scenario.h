@@ -58,6 +58,7 @@ struct PlumeSource {
     std::vector<double> times_s;               ///< one per file; empty = one file for all times
     std::vector<double> levels_m;              ///< heights above the terrain, ascending, one per band
     Quantity quantity = Quantity::Temperature;
+    bool of_wrf = false;   ///< the files are those of inputs.wrf_sfire, the excess follows from their heating
     std::string variable;  ///< of a netCDF file with several; empty = the file as it is
 };
 

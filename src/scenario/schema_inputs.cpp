@@ -167,6 +167,7 @@ std::string fire_keys() {
            "crs": {"type": "string", "description": "projected, metres; of an idealised run, which has none"},
            "west_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "its western edge"},
            "south_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "its southern edge"},
+           "plume": {"type": "boolean", "description": "hot air above the fire from its heating RTHFRTEN; without it: false"},
            "fuel_table": {"type": "string", "description": "what NFUEL_CAT counts: fbfm13, fbfm40 or a CSV file code,surface"}
          }}
       ]

@@ -35,7 +35,27 @@ double WrfTestFile::fire_value(const std::string& variable, int record, int col,
     return record * 1000.0 + col + 20.0 * row;  // FGRNHFX
 }
 
+double WrfTestFile::air_value(const std::string& variable, int record, int k, int row, int col) {
+    if (variable == "RTHFRTEN") return record * 0.01 * (k + 1) * (col + 1);
+    if (variable == "U") return 2.0 + 0.5 * col;
+    if (variable == "V") return -1.0 - 0.25 * row;
+    if (variable == "W") return 0.8 * k;
+    if (variable == "PH") return 9.81 * (40.0 * k + 10.0 * k * k);
+    return 9.81 * (1500.0 + 20.0 * k + 7.0 * row);  // PHB
+}
+
 std::pair<double, double> WrfTestFile::lon_lat(double x_m, double y_m) const {
+    if (map_projection == 2) {  // Snyder 1987, eqs 21-1 to 21-15 with the true scale at a parallel
+        const double pole = true1 < 0.0 ? -1.0 : 1.0;
+        const double scale_m = kRadius_m * (1.0 + std::sin(std::abs(true1) * kPi / 180.0));
+        const double colatitude = 2.0 * std::atan(std::hypot(x_m, y_m) / scale_m);
+        return {stand_lon + std::atan2(x_m, -pole * y_m) * 180.0 / kPi, pole * (90.0 - colatitude * 180.0 / kPi)};
+    }
+    if (map_projection == 3) {  // eqs 7-4, 7-5
+        const double scale_m = kRadius_m * std::cos(true1 * kPi / 180.0);
+        return {stand_lon + x_m / scale_m * 180.0 / kPi,
+                (2.0 * std::atan(std::exp(y_m / scale_m)) - kPi / 2.0) * 180.0 / kPi};
+    }
     // Snyder 1987, eqs 15-1 to 15-5 and 14-9 (spherical Lambert conformal conic).
     const auto rad = [](double deg) { return deg * kPi / 180.0; };
     const auto t = [](double lat) { return std::tan(kPi / 4.0 + lat / 2.0); };
@@ -97,6 +117,23 @@ void WrfTestFile::write(const std::filesystem::path& path) const {
             }
     if (wanted("XLONG")) write_floats(*root, "XLONG", {time, y, x}, lon);
     if (wanted("XLAT")) write_floats(*root, "XLAT", {time, y, x}, lat);
+    const auto z = dimension("bottom_top", layers), zs = dimension("bottom_top_stag", layers + 1);
+    const auto ys = dimension("south_north_stag", rows + 1), xs = dimension("west_east_stag", cols + 1);
+    for (const auto& [name, dimensions] : {std::pair<const char*, Dimensions>{"RTHFRTEN", {time, z, y, x}},
+                                           {"U", {time, z, y, xs}},
+                                           {"V", {time, z, ys, x}},
+                                           {"W", {time, zs, y, x}},
+                                           {"PH", {time, zs, y, x}},
+                                           {"PHB", {time, zs, y, x}}}) {
+        if (!wanted(name)) continue;
+        std::vector<float> values;
+        const auto size = [&](std::size_t d) { return static_cast<int>(dimensions[d]->GetSize()); };
+        for (int t = 0; t < records; ++t)
+            for (int k = 0; k < size(1); ++k)
+                for (int r = 0; r < size(2); ++r)
+                    for (int c = 0; c < size(3); ++c) values.push_back(static_cast<float>(air_value(name, t, k, r, c)));
+        write_floats(*root, name, dimensions, values);
+    }
     for (const char* name : {"ZSF", "TIGN_G", "FUEL_FRAC", "FGIP", "UF", "VF", "FGRNHFX"}) {
         if (!wanted(name)) continue;
         std::vector<float> values;

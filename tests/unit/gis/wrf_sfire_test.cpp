@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "gis/geodesy.h"
 #include "gis/raster_input.h"
+#include "gis/wrf_plume.h"
 #include "unit/gis/wrf_file.h"
 
 namespace pyroscene::gis {
@@ -87,6 +88,71 @@ TEST_F(WrfSfireFiles, RefinementMayDifferByDirection) {
     EXPECT_EQ(wrf.refine_x, 4);
     EXPECT_EQ(wrf.refine_y, 2);
     expect_in_place(layout, wrf, read(wrf, "ZSF", 0, "m"));
+}
+
+struct Projection {
+    const char* name;
+    int map_projection;
+    double true1, stand_lon, west_m, south_m;
+};
+
+class WrfProjections : public WrfSfireFiles, public ::testing::WithParamInterface<Projection> {};
+
+TEST_P(WrfProjections, PutFireCellsWhereTheirFormulasSay) {
+    const auto& p = GetParam();
+    WrfTestFile layout;
+    layout.map_projection = p.map_projection;
+    layout.true1 = p.true1, layout.stand_lon = p.stand_lon, layout.west_m = p.west_m, layout.south_m = p.south_m;
+    const auto wrf = open_wrf_sfire({write(layout)}, {});
+    expect_in_place(layout, wrf, read(wrf, "ZSF", 0, "m"));
+    // The same file under another projection's number is refused, not shifted.
+    layout.attributes = {{"MAP_PROJ", p.map_projection == 3 ? 1.0 : 3.0}, {"TRUELAT1", 30.0}};
+    EXPECT_NE(refusal({write(layout, "wrong")}).find("float32 explains"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WrfProjections,
+                         ::testing::Values(Projection{"north_pole", 2, 60.0, -150.0, 120000.0, -2700000.0},
+                                           Projection{"south_pole", 2, -71.0, 20.0, -300000.0, 2500000.0},
+                                           Projection{"mercator", 3, 15.0, -60.0, -50000.0, 1700000.0},
+                                           Projection{"mercator_south", 3, -10.0, 30.0, 70000.0, -1200000.0}),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
+
+// Heating becomes excess by the balance that wrf_plume.h writes, with winds at the centres of cells.
+TEST_F(WrfSfireFiles, HeatingMakesAPlume) {
+    const WrfTestFile layout;
+    const auto wrf = open_wrf_sfire({write(layout)}, {});
+    const std::vector<double> levels_m{5.0, 35.0, 90.0, 1000.0};
+    const auto file = wrf_plume(wrf, wrf.moments[1], levels_m);
+    const auto grid = make_map_grid(file, {}, {});
+    ASSERT_EQ(grid.cols, layout.cols);
+    std::vector<Raster<float>> bands;
+    for (int band = 1; band <= 4; ++band)
+        bands.push_back(
+            read_band({.file = file, .band = band, .resampling = Resampling::Nearest, .name = "excess", .unit = "K"}, grid));
+    const auto air = [](const char* name, int k, int row, int col) { return WrfTestFile::air_value(name, 1, k, row, col); };
+    for (int row = 0; row < layout.rows; ++row)
+        for (int col = 0; col < layout.cols; ++col) {
+            std::vector<double> height, excess;
+            for (int k = 0; k < layout.layers; ++k) {
+                const auto z = [&](int level) {
+                    return 60.0 * level + 10.0 * level * level;
+                };  // (PH + PHB) / 9.81 above the ground
+                const double dz = z(k + 1) - z(k);
+                const double airing = (air("U", k, row, col) + air("U", k, row, col + 1)) / 2.0 / 90.0 -
+                                      (air("V", k, row, col) + air("V", k, row + 1, col)) / 2.0 / 90.0 +
+                                      0.8 * (k + 0.5) / dz;
+                excess.push_back((air("RTHFRTEN", k, row, col) + (k > 0 ? 0.8 * k * excess.back() / dz : 0.0)) / airing);
+                height.push_back((z(k) + z(k + 1)) / 2.0);
+            }
+            const int map_row = layout.rows - 1 - row;
+            EXPECT_NEAR(bands[0].at(map_row, col), excess[0], 1e-5 * excess[0]);
+            EXPECT_NEAR(bands[1].at(map_row, col), excess[0], 1e-5 * excess[0]);  // the centre of the lowest layer
+            const double share = (90.0 - height[0]) / (height[1] - height[0]);
+            EXPECT_NEAR(bands[2].at(map_row, col), std::lerp(excess[0], excess[1], share), 1e-5 * excess[1]);
+            EXPECT_EQ(bands[3].at(map_row, col), 0.0F);
+        }
+    const auto lacking = open_wrf_sfire({write({.left_out = {"W"}}, "lacking")}, {});
+    EXPECT_THROW((void)wrf_plume(lacking, lacking.moments[0], levels_m), Error);
 }
 
 TEST_F(WrfSfireFiles, MomentsOfSeveralFilesComeInOrderOfTime) {
