@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/constants.h"
 #include "fire/flame_bodies.h"
@@ -52,10 +53,20 @@ void SmokeLight::find_box() {
 }
 
 void SmokeLight::find_sources(const SceneTables& tables) {
+    std::vector<float> emission(flame_share_m2_.size(), 0.0F);
+    add_flames(tables, emission);
+    add_front(tables, emission);
+    double total = 0.0;
+    for (const Source& source : sources_) total += source.weight;
+    for (Source& source : sources_) source.weight = total > 0.0 ? source.weight / total : 0.0;
+    for (std::size_t l = 0; l < emission.size(); ++l)
+        flame_radiance_[l] = flame_share_m2_[l] > 0.0F ? emission[l] / flame_share_m2_[l] : 0.0F;
+}
+
+void SmokeLight::add_flames(const SceneTables& tables, std::vector<float>& emission) {
     const SpectralKernels& kernels = spectral_kernels();
     const std::size_t n = flame_share_m2_.size();
-    std::vector<float> tau(n), emitted(n), emission(n, 0.0F);
-    double total = 0.0;
+    std::vector<float> tau(n), emitted(n);
     for (const fire::FlameBody& body : fire::flame_bodies(*scene_->flame)) {
         const auto chord_m = static_cast<float>(body.chord_m());
         const PlanckRows::Lookup at = tables.planck.at(body.T_K);
@@ -70,11 +81,55 @@ void SmokeLight::find_sources(const SceneTables& tables) {
             scattered += static_cast<double>(tables.smoke.extinction_per_m[l] * tables.smoke.albedo[l] * emitted[l]);
         }
         sources_.push_back({body.middle_m, scattered, body.area_m2 / (16.0 * kPi)});
-        total += scattered;
+        flame_area_m2_ += body.area_m2;
     }
-    for (Source& source : sources_) source.weight = total > 0.0 ? source.weight / total : 0.0;
-    for (std::size_t l = 0; l < n; ++l)
-        flame_radiance_[l] = flame_share_m2_[l] > 0.0F ? emission[l] / flame_share_m2_[l] : 0.0F;
+}
+
+void SmokeLight::add_front(const SceneTables& tables, std::vector<float>& emission) {
+    const fire::SurfaceField& surface = *scene_->surface;
+    const MapGrid& map = scene_->terrain->grid();
+    std::map<std::size_t, Source> patches;  // by map cell; the weight is its area, the place a sum
+    for (std::size_t i = 0; i < surface.front_fraction.size(); ++i) {
+        const auto front = static_cast<double>(surface.front_fraction[i]);
+        if (!(front > 0.0) || std::isnan(surface.base_temperature_K[i])) continue;
+        const int row = static_cast<int>(i) / surface.grid.cols, col = static_cast<int>(i) % surface.grid.cols;
+        const double x_m = surface.grid.x_centre_m(col), y_m = surface.grid.y_centre_m(row);
+        const double area_m2 = front * surface.grid.cell_area_m2();
+        const Vec3 at{x_m - scene_->scene_origin_m.x, y_m - scene_->scene_origin_m.y, 0.0};
+        const int map_row = std::clamp(static_cast<int>(map.row_at(y_m)), 0, map.rows - 1),
+                  map_col = std::clamp(static_cast<int>(map.col_at(x_m)), 0, map.cols - 1);
+        Source& patch = patches[map.index(map_row, map_col)];
+        patch.at_m = patch.at_m + area_m2 * at;
+        patch.weight += area_m2;
+    }
+    double area_m2 = 0.0;
+    for (auto& [cell, patch] : patches) {
+        patch.at_m = patch.at_m / patch.weight;
+        patch.at_m.z = scene_->terrain->height_at(patch.at_m.x, patch.at_m.y);
+        patch.softening_m2 = patch.weight / (2.0 * kPi);  // half the sphere when at the patch itself
+        patch.flat = true;
+        if (std::isfinite(patch.at_m.z)) area_m2 += patch.weight;
+    }
+    if (!(area_m2 > 0.0)) return;
+    const PlanckRows::Lookup hot = tables.planck.at(tables.front_K);
+    const float* emissivity = tables.emissivity[tables.burnt_material];
+    double scattered_per_m2 = 0.0;
+    const auto flame_area = static_cast<float>(flame_area_m2_ / (16.0 * kPi));
+    for (std::size_t l = 0; l < emission.size(); ++l) {
+        float B = 0.0F;
+        for (int j = 0; j < hot.count; ++j) B += hot.weight[static_cast<std::size_t>(j)] * tables.planck.row(hot.row + j)[l];
+        const float through = flame_area > 0.0F ? 1.0F - flame_share_m2_[l] / flame_area : 1.0F;
+        const float share_per_m2 = emissivity[l] * through / static_cast<float>(8.0 * kPi);
+        flame_share_m2_[l] += share_per_m2 * static_cast<float>(area_m2);
+        emission[l] += share_per_m2 * static_cast<float>(area_m2) * B;
+        scattered_per_m2 +=
+            4.0 * kPi * static_cast<double>(tables.smoke.extinction_per_m[l] * tables.smoke.albedo[l] * share_per_m2 * B);
+    }
+    for (auto& [cell, patch] : patches) {
+        if (!std::isfinite(patch.at_m.z)) continue;
+        patch.weight *= scattered_per_m2;
+        sources_.push_back(patch);
+    }
 }
 
 void SmokeLight::fill_nodes() {
@@ -124,7 +179,10 @@ void SmokeLight::fill_node(Vec3 at_m, Node& node) const {
     Vec3 bundle, middle;
     for (const Source& source : sources_) {
         const Vec3 way = at_m - source.at_m;
-        const double r2_m2 = dot(way, way) + source.softening_m2, weight = source.weight / r2_m2;
+        const double r2_m2 = dot(way, way) + source.softening_m2;
+        const double climb2_m2 = way.z < 0.0 ? 0.0 : way.z * way.z + source.softening_m2;
+        const double towards = source.flat ? 2.0 * std::sqrt(climb2_m2 / r2_m2) : 1.0;
+        const double weight = towards * source.weight / r2_m2;
         sum += weight;
         bundle = bundle + (weight / std::sqrt(r2_m2)) * way;
         middle = middle + weight * source.at_m;

@@ -14,7 +14,8 @@ namespace pyroscene::render {
 /// fill x length. Terrain neither shadows smoke nor hides flames from it.
 ///
 /// Flames light smoke as point sources, one per brick of flame: projected area A / 4 (A: faces towards air) times emissivity at
-/// the mean chord 4 V / A (Cauchy), isotropic, all with one spectrum.
+/// the mean chord 4 V / A (Cauchy), isotropic; the front under them as flat patches, one per map cell, that shine upward with the
+/// cosine through the mean flame. All have one spectrum.
 class SmokeLight {
 public:
     /// What is known at a node (PastSun: on the sun's rays behind it; only for light scattered more than once) and interpolated between nodes.
@@ -36,9 +37,12 @@ private:
     struct Source {
         Vec3 at_m;
         double weight, softening_m2;
+        bool flat = false;  ///< shines upward with the cosine, twice its mean straight up
     };
     void find_box();
     void find_sources(const SceneTables& tables);
+    void add_flames(const SceneTables& tables, std::vector<float>& emission);
+    void add_front(const SceneTables& tables, std::vector<float>& emission);
     void fill_nodes();
     void fill_node(Vec3 at_m, Node& node) const;
     [[nodiscard]] std::size_t node_index(int i, int j, int k) const noexcept {
@@ -54,6 +58,7 @@ private:
     int nx_ = 0, ny_ = 0, nz_ = 0;
     std::vector<Node> nodes_;  ///< [nz + 1][ny][nx]
     std::vector<Source> sources_;
+    double flame_area_m2_ = 0.0;  ///< of all bodies
     std::vector<float> flame_share_m2_, flame_radiance_;
 };
 

@@ -90,6 +90,8 @@ TEST(Smoke, FurnaceStaysBlackThroughScatteringSmoke) {
                         .corner_m = {40.0, 40.0, 0.0}, .nx = 8, .ny = 8, .dx_m = 10.0, .dy_m = 10.0, .dz_m = 5.0};
                     scene.set_flame(grid, box_of_voxels(8, 8, 30, T_K));  // reaches into the layer
                     scene.set_absorption({0.3F, 0.2F, 0.1F, 0.05F, 0.01F});
+                    scene.surface.front_temperature_K = T_K;
+                    scene.surface.front_fraction[scene.surface.grid.index(2, 5)] = 0.7F;
                     const auto light = render::ground_irradiance(scene.scene(), {.directions = 16, .reach_m = 60.0});
                     for (const double view : {0.0, 0.6}) {
                         const auto radiance = trace(scene, ray_from(view, 1.0), &light);
@@ -203,6 +205,40 @@ TEST(Smoke, ScattersTheLightOfADistantFlame) {
         const double expected =
             extinction_per_m * inside_m * 0.9 * intensity / (r_m * r_m) * radiometry::henyey_greenstein_per_sr(cosine, g);
         EXPECT_NEAR(term(image, Term::SmokeScattering, b) / expected, 1.0, 0.03) << kLambda_um[b];
+    }
+}
+
+// A burning cell far below a thin puff: J = eps B a cos / r^2 p(cos); not a glimmer below its own level.
+TEST(Smoke, ScattersTheLightOfADistantFront) {
+    const double extinction_per_m = 1e-5, g = 0.5, reflectance = 0.2;
+    for (const double share : {1.0, 0.25}) {
+        TestScene scene({.ground_K = 1.0, .lambda_um = kLambda_um, .reflectance = reflectance});
+        scene.surface.front_fraction[scene.surface.grid.index(3, 3)] = static_cast<float>(share);  // centre at 70, 90
+        const auto n = kLambda_um.size();
+        scene.optics.smoke_extinction_per_m.assign(n, static_cast<float>(extinction_per_m));
+        scene.optics.smoke_albedo.assign(n, 0.9F);
+        scene.optics.smoke_asymmetry.assign(n, static_cast<float>(g));
+        const Vec3 puff{185.0, 80.0, 305.0}, front{70.0, 90.0, 0.0}, eye{260.0, 80.0, 600.0};
+        const Vec3 down = (puff - eye) / length(puff - eye);
+        const render::SceneRay ray{eye, eye + (601.0 / -down.z) * down};
+        const auto seen = [&](double bottom_m) {
+            scene.plume = fire::make_flame_field(
+                {.corner_m = {180.0, 40.0, bottom_m}, .nx = 1, .ny = 1, .dx_m = 10.0, .dy_m = 80.0, .dz_m = 10.0},
+                box_of_voxels(1, 1, 1, 1.0));
+            return render::render_image(scene.scene(), nullptr, rays_request({ray}));
+        };
+        const auto image = seen(300.0);
+        ASSERT_GT(image.coverage[0], 0.0F);
+        const Vec3 way = puff - front;
+        const double r_m = length(way), cosine = dot(way / r_m, -1.0 * down);
+        const double inside_m = 10.0 / std::max(std::abs(down.z), std::abs(down.x));
+        for (const std::size_t b : {std::size_t{0}, std::size_t{2}}) {
+            const double L =
+                (1.0 - reflectance) * radiometry::planck_radiance(kLambda_um[b], scene.surface.front_temperature_K);
+            const double expected = extinction_per_m * inside_m * 0.9 * L * share * 400.0 * way.z / (r_m * r_m * r_m) *
+                                    radiometry::henyey_greenstein_per_sr(cosine, g);
+            EXPECT_NEAR(term(image, Term::SmokeScattering, b) / expected, 1.0, 0.03) << kLambda_um[b];
+        }
     }
 }
 
