@@ -23,7 +23,7 @@ constexpr double kCentre_x_m = 720000.0, kCentre_y_m = 5190000.0, kLat_deg = 46.
 /// Truth of the middle pixel of a camera that looks 40 degrees off nadir along a heading onto level ground without fire.
 class Look {
 public:
-    Look(const std::string& start, double heading_deg) {
+    Look(const std::string& start, double heading_deg, const std::string& more = "") {
         MapGrid grid;
         grid.cols = grid.rows = 60;
         grid.west_m = kCentre_x_m - 600.0;
@@ -37,13 +37,17 @@ public:
         const double back_m = kAltitude_m * std::tan(kTilt_deg * kDegree_rad);
         const double x_m = kCentre_x_m - back_m * std::sin(heading_deg * kDegree_rad),
                      y_m = kCentre_y_m - back_m * std::cos(heading_deg * kDegree_rad);
-        std::ofstream(folder_ / "scenario.yaml") << fmt::format(
-            "pyroscene: 1\nname: look\ninputs:\n  terrain:   {{file: dem.tif}}\n  heat_flux: {{file: heat.tif}}\nstart: {}\n"
-            "flame: {{enabled: false}}\nsurface: {{emissivity: 0.7}}\natmosphere: {{model: midlatitude_summer}}\n"
-            "products: [radiance, truth]\nacquisitions:\n  - {{id: a, sensor: camera.yaml, time_s: 0, platform: {{over: "
-            "{{x_m: {:.3f}, "
-            "y_m: {:.3f}}}, altitude_m: {}, heading_deg: {:.6f}, pitch_deg: {}}}}}\n",
-            start, x_m, y_m, kGround_m + kAltitude_m, heading_deg, kTilt_deg);
+        std::ofstream(folder_ / "scenario.yaml")
+            << fmt::format(
+                   "pyroscene: 1\nname: look\ninputs:\n  terrain:   {{file: dem.tif}}\n  heat_flux: {{file: "
+                   "heat.tif}}\nstart: {}\n"
+                   "flame: {{enabled: false}}\nsurface: {{emissivity: 0.7}}\natmosphere: {{model: midlatitude_summer}}\n"
+                   "products: [radiance, truth]\nacquisitions:\n  - {{id: a, sensor: camera.yaml, time_s: 0, platform: "
+                   "{{over: "
+                   "{{x_m: {:.3f}, "
+                   "y_m: {:.3f}}}, altitude_m: {}, heading_deg: {:.6f}, pitch_deg: {}}}}}\n",
+                   start, x_m, y_m, kGround_m + kAltitude_m, heading_deg, kTilt_deg)
+            << more;
         const auto run = pyroscene_cli("run " + (folder_ / "scenario.yaml").string() + " -o " + (folder_ / "out").string());
         EXPECT_EQ(run.exit_code, 0) << run.output;
         truth_ = gis::read_image(folder_ / "out" / "a" / "truth.tif");
@@ -113,6 +117,27 @@ TEST(Air, SurroundingsLightGroundAndView) {
         EXPECT_NEAR(look.term(kNarrowBands[band].id, "adjacency") / adjacent, 1.0, 0.01);
         EXPECT_GT(lit, (band == 0 ? 1.1 : 1.02) * black);
     }
+}
+
+// A layer of white smoke under the camera: the switch of the scenario decides what becomes of its light, of optical depth 3 several
+// times as much as once scattered (docs/physics-render.md), and lets sunlight down to the ground. In the long wave nothing changes.
+TEST(Air, SmokeScattersAsTheScenarioSays) {
+    const auto layer = [](const std::string& multiple) {
+        return Look("2017-08-09T22:00:00Z", 0.0,
+                    "plume: {smoke: boreal_forest, multiple_scattering: " + multiple +
+                        ", layers: [{bottom_m: 2000, top_m: 2300, optical_depth_550nm: 3}]}\n");
+    };
+    const Look all = layer("true"), once = layer("false");
+    const double ratio = all.term("RED", "smoke_scattering") / once.term("RED", "smoke_scattering");
+    EXPECT_GT(ratio, 2.0);
+    EXPECT_LT(ratio, 9.0);
+    EXPECT_GT(all.term("RED", "reflected_sky"), 2.0 * once.term("RED", "reflected_sky"));
+    EXPECT_NEAR(all.term("LWIR", "ground_emission") / once.term("LWIR", "ground_emission"), 1.0, 1e-6);
+    // Neither gives back more than falls on the layer: pi L below the sun's irradiance at the ground without smoke.
+    const auto air = air_of(0.0, kGround_m, kDay_unix_s);
+    const double mu = std::cos(radiometry::sun_position(kDay_unix_s, kLat_deg, kLon_deg).zenith_rad);
+    EXPECT_LT(kPi * all.term("RED", "smoke_scattering"),
+              mean_of(air, 0, air.direct_normal) * mu + mean_of(air, 0, air.diffuse));
 }
 
 TEST(Air, NightLeavesWhatIsThermal) {
