@@ -87,11 +87,14 @@ void Pixel::add(const SceneRay& ray, const Met& met, double weight) {
         add_ground(p.tables, ground, weight, light, mix_);
         return;
     }
-    add_ground_truth(ground, weight * flame_truth(weight));
-    if (p.tables.grey)
-        add_ground(p.tables, ground, weight * add_grey_flame(weight), light, mix_);
-    else
+    const double through = flame_truth(weight);
+    add_ground_truth(ground, weight * through);
+    if (p.tables.grey) {
+        add_grey_flame(weight);
+        add_ground(p.tables, ground, weight * through, light, mix_);
+    } else {
         add_flame_spectrally(weight, ground, light);
+    }
 }
 
 GroundLight Pixel::light_at(const Met& met) const {
@@ -119,7 +122,7 @@ void Pixel::march(Vec3 start_m, Vec3 end_m) {
         if (!pieces_.empty() && pieces_.back().temperature_K == T_K)
             pieces_.back().fill_length_m += fill_length_m;
         else
-            pieces_.push_back({T_K, fill_length_m});
+            pieces_.push_back({T_K, fill_length_m, 0.0});
         depth += least * fill_length_m;
         return depth < kOpaqueDepth;
     });
@@ -129,10 +132,11 @@ void Pixel::march(Vec3 start_m, Vec3 end_m) {
 double Pixel::flame_truth(double weight) {
     const bool gas = !prepared_->tables.total_transmittance.empty();
     double tau = 1.0, total = 1.0, passed_m = 0.0;
-    for (const FlamePiece& piece : pieces_) {
+    for (FlamePiece& piece : pieces_) {
         const double T4 = fourth_power(piece.temperature_K);
         const double emitted = -tau * std::expm1(-prepared_->tables.truth_absorption_per_m * piece.fill_length_m);
         tau -= emitted;
+        piece.emitted = emitted;
         truth_.flame += weight * emitted;
         truth_.flame_T4 += weight * emitted * T4;
         passed_m += piece.fill_length_m;
@@ -143,23 +147,19 @@ double Pixel::flame_truth(double weight) {
     return tau;
 }
 
-/// Absorption equal at all wavelengths: emission becomes weights of Planck rows, the ray's transmittance a number.
-double Pixel::add_grey_flame(double weight) {
+/// Absorption equal at all wavelengths: emission becomes weights of Planck rows. Follows flame_truth().
+void Pixel::add_grey_flame(double weight) {
     const SceneTables& t = prepared_->tables;
-    double tau = 1.0;
     for (const FlamePiece& piece : pieces_) {
-        const double emitted = -tau * std::expm1(-t.grey_absorption_per_m * piece.fill_length_m);
-        tau -= emitted;
         const PlanckRows::Lookup found = t.planck.at(piece.temperature_K);
         for (int j = 0; j < found.count; ++j) {
             flame_weight_[static_cast<std::size_t>(found.row + j)] +=
-                weight * emitted * found.weight[static_cast<std::size_t>(j)];
+                weight * piece.emitted * static_cast<double>(found.weight[static_cast<std::size_t>(j)]);
         }
         const bool first = end_flame_row_ == first_flame_row_;
         first_flame_row_ = first ? found.row : std::min(first_flame_row_, found.row);
         end_flame_row_ = std::max(end_flame_row_, found.row + found.count);
     }
-    return tau;
 }
 
 void Pixel::emit_soot(double weight) {

@@ -83,11 +83,12 @@ private:
     struct FlamePiece {
         float temperature_K;
         double fill_length_m;  ///< length x filled fraction
+        double emitted = 0.0;  ///< what it emits of its black body through the pieces before it, at 4.0 um
     };
     [[nodiscard]] GroundLight light_at(const Met& met) const;
     void march(Vec3 start_m, Vec3 end_m);
     double flame_truth(double weight);
-    double add_grey_flame(double weight);
+    void add_grey_flame(double weight);
     void emit_soot(double weight);
     void add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light);
     double mixed_truth(double weight);

@@ -18,7 +18,7 @@
 namespace pyroscene::render {
 namespace {
 
-constexpr int kTileSamples = 64;  // pixels a thread renders before it writes them out plane by plane
+constexpr int kTileSamples = 128;  // pixels a thread renders before it writes them out plane by plane
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 void check_request(const ImageRequest& request) {

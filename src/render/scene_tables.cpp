@@ -182,7 +182,6 @@ SceneTables::SceneTables(const RenderScene& scene) {
         }
     }
     grey = optics.grey;
-    grey_absorption_per_m = absorption_per_m.front();
     const auto nearest = std::min_element(optics.lambda_um.begin(), optics.lambda_um.end(), [](double a, double b) {
         return std::abs(a - kTruthWavelength_um) < std::abs(b - kTruthWavelength_um);
     });

@@ -68,7 +68,7 @@ struct SceneTables {
     std::vector<double> total_transmittance;
     [[nodiscard]] double total_transmittance_at(double fill_length_m) const noexcept;
     bool grey = false;
-    double grey_absorption_per_m = 0.0, least_absorption_per_m = 0.0;
+    double least_absorption_per_m = 0.0;
     double truth_absorption_per_m = 0.0;  ///< at the node nearest 4.0 um
 
     Rows emissivity, reflectance_per_pi;

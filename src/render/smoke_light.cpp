@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "fire/flame_bodies.h"
+#include "render/smoke_run.h"
 #include "render/smoke_shadow.h"
 
 namespace pyroscene::render {
@@ -54,16 +55,29 @@ void SmokeLight::find_box() {
 
 void SmokeLight::find_sources(const SceneTables& tables) {
     std::vector<float> emission(flame_share_m2_.size(), 0.0F);
-    add_flames(tables, emission);
-    add_front(tables, emission);
+    std::vector<Source> sources;
+    const double flame_area_m2 = add_flames(tables, emission, sources);
+    add_front(tables, flame_area_m2, emission, sources);
     double total = 0.0;
-    for (const Source& source : sources_) total += source.weight;
-    for (Source& source : sources_) source.weight = total > 0.0 ? source.weight / total : 0.0;
+    for (const Source& source : sources) total += source.weight;
+    const auto padded_count = static_cast<std::size_t>(padded(static_cast<int>(sources.size())));
+    for (auto* row : {&source_x_m_, &source_y_m_, &source_z_m_, &source_weight_, &flat_}) row->assign(padded_count, 0.0F);
+    softening_m2_.assign(padded_count, 1.0F);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const Source& source = sources[i];
+        source_x_m_[i] = static_cast<float>(source.at_m.x);
+        source_y_m_[i] = static_cast<float>(source.at_m.y);
+        source_z_m_[i] = static_cast<float>(source.at_m.z);
+        source_weight_[i] = total > 0.0 ? static_cast<float>(source.weight / total) : 0.0F;
+        softening_m2_[i] = static_cast<float>(source.softening_m2);
+        flat_[i] = source.flat ? 1.0F : 0.0F;
+    }
     for (std::size_t l = 0; l < emission.size(); ++l)
         flame_radiance_[l] = flame_share_m2_[l] > 0.0F ? emission[l] / flame_share_m2_[l] : 0.0F;
 }
 
-void SmokeLight::add_flames(const SceneTables& tables, std::vector<float>& emission) {
+double SmokeLight::add_flames(const SceneTables& tables, std::vector<float>& emission, std::vector<Source>& sources) {
+    double area_m2 = 0.0;
     const SpectralKernels& kernels = spectral_kernels();
     const std::size_t n = flame_share_m2_.size();
     std::vector<float> tau(n), emitted(n);
@@ -80,12 +94,14 @@ void SmokeLight::add_flames(const SceneTables& tables, std::vector<float>& emiss
             emission[l] += emitted[l] / static_cast<float>(4.0 * kPi);
             scattered += static_cast<double>(tables.smoke.extinction_per_m[l] * tables.smoke.albedo[l] * emitted[l]);
         }
-        sources_.push_back({body.middle_m, scattered, body.area_m2 / (16.0 * kPi)});
-        flame_area_m2_ += body.area_m2;
+        sources.push_back({body.middle_m, scattered, body.area_m2 / (16.0 * kPi)});
+        area_m2 += body.area_m2;
     }
+    return area_m2;
 }
 
-void SmokeLight::add_front(const SceneTables& tables, std::vector<float>& emission) {
+void SmokeLight::add_front(const SceneTables& tables, double flame_area_m2, std::vector<float>& emission,
+                           std::vector<Source>& sources) {
     const fire::SurfaceField& surface = *scene_->surface;
     const MapGrid& map = scene_->terrain->grid();
     std::map<std::size_t, Source> patches;  // by map cell; the weight is its area, the place a sum
@@ -114,7 +130,7 @@ void SmokeLight::add_front(const SceneTables& tables, std::vector<float>& emissi
     const PlanckRows::Lookup hot = tables.planck.at(tables.front_K);
     const float* emissivity = tables.emissivity[tables.burnt_material];
     double scattered_per_m2 = 0.0;
-    const auto flame_area = static_cast<float>(flame_area_m2_ / (16.0 * kPi));
+    const auto flame_area = static_cast<float>(flame_area_m2 / (16.0 * kPi));
     for (std::size_t l = 0; l < emission.size(); ++l) {
         float B = 0.0F;
         for (int j = 0; j < hot.count; ++j) B += hot.weight[static_cast<std::size_t>(j)] * tables.planck.row(hot.row + j)[l];
@@ -128,7 +144,7 @@ void SmokeLight::add_front(const SceneTables& tables, std::vector<float>& emissi
     for (auto& [cell, patch] : patches) {
         if (!std::isfinite(patch.at_m.z)) continue;
         patch.weight *= scattered_per_m2;
-        sources_.push_back(patch);
+        sources.push_back(patch);
     }
 }
 
@@ -175,26 +191,25 @@ void SmokeLight::fill_nodes() {
 void SmokeLight::fill_node(Vec3 at_m, Node& node) const {
     node[ToSun] = static_cast<float>(smoke_to_sun(*plume_, at_m, scene_->to_sun));
     if (diffuse_) node[PastSun] = static_cast<float>(smoke_past_sun(*plume_, at_m, scene_->to_sun));
-    double sum = 0.0;
-    Vec3 bundle, middle;
-    for (const Source& source : sources_) {
-        const Vec3 way = at_m - source.at_m;
-        const double r2_m2 = dot(way, way) + source.softening_m2;
-        const double climb2_m2 = way.z < 0.0 ? 0.0 : way.z * way.z + source.softening_m2;
-        const double towards = source.flat ? 2.0 * std::sqrt(climb2_m2 / r2_m2) : 1.0;
-        const double weight = towards * source.weight / r2_m2;
-        sum += weight;
-        bundle = bundle + (weight / std::sqrt(r2_m2)) * way;
-        middle = middle + weight * source.at_m;
-    }
-    if (!(sum > 0.0)) return;
-    const Vec3 to_flame = middle / sum - at_m;
+    const FlameSources sources{static_cast<int>(source_weight_.size()),
+                               source_x_m_.data(),
+                               source_y_m_.data(),
+                               source_z_m_.data(),
+                               source_weight_.data(),
+                               softening_m2_.data(),
+                               flat_.data()};
+    const float here[3] = {static_cast<float>(at_m.x), static_cast<float>(at_m.y), static_cast<float>(at_m.z)};
+    FlameLightAt light;
+    spectral_kernels().light_of_flames(sources, here, light);
+    const float sum = light.per_m2;
+    if (!(sum > 0.0F)) return;
+    const Vec3 to_flame = Vec3{light.place_m[0] / sum, light.place_m[1] / sum, light.place_m[2] / sum} - at_m;
     const double distance_m = length(to_flame);
-    node[FlamePerM2] = static_cast<float>(sum);
+    node[FlamePerM2] = sum;
     node[ToFlame] = distance_m > 0.0 ? static_cast<float>(smoke_between(*plume_, at_m, at_m + to_flame)) : 0.0F;
-    node[FlameX] = static_cast<float>(bundle.x / sum);
-    node[FlameY] = static_cast<float>(bundle.y / sum);
-    node[FlameZ] = static_cast<float>(bundle.z / sum);
+    node[FlameX] = light.way[0] / sum;
+    node[FlameY] = light.way[1] / sum;
+    node[FlameZ] = light.way[2] / sum;
 }
 
 SmokeLight::Node SmokeLight::at(Vec3 point_m) const noexcept {

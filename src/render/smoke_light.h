@@ -41,8 +41,10 @@ private:
     };
     void find_box();
     void find_sources(const SceneTables& tables);
-    void add_flames(const SceneTables& tables, std::vector<float>& emission);
-    void add_front(const SceneTables& tables, std::vector<float>& emission);
+    /// Both add to the shares of the sphere and to `emission` [lambda]. \return area of all flame bodies [m2]
+    double add_flames(const SceneTables& tables, std::vector<float>& emission, std::vector<Source>& sources);
+    void add_front(const SceneTables& tables, double flame_area_m2, std::vector<float>& emission,
+                   std::vector<Source>& sources);
     void fill_nodes();
     void fill_node(Vec3 at_m, Node& node) const;
     [[nodiscard]] std::size_t node_index(int i, int j, int k) const noexcept {
@@ -56,9 +58,8 @@ private:
     bool diffuse_ = false;
     Vec3 corner_m_;
     int nx_ = 0, ny_ = 0, nz_ = 0;
-    std::vector<Node> nodes_;  ///< [nz + 1][ny][nx]
-    std::vector<Source> sources_;
-    double flame_area_m2_ = 0.0;  ///< of all bodies
+    std::vector<Node> nodes_;                                                                        ///< [nz + 1][ny][nx]
+    std::vector<float> source_x_m_, source_y_m_, source_z_m_, source_weight_, softening_m2_, flat_;  ///< FlameSources
     std::vector<float> flame_share_m2_, flame_radiance_;
 };
 

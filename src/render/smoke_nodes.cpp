@@ -29,27 +29,30 @@ std::array<double, kNodes> lagrange(std::span<const double> nodes, double at) {
     return weight;
 }
 
-/// Places of the nodes in an interval: those of Chebyshev's polynomial, as near as there are wavelengths; all where there are few.
-std::vector<std::size_t> pick(std::span<const double> way) {
+/// Places of `count` nodes in an interval: those of Chebyshev's polynomial, as near as there are wavelengths.
+std::vector<std::size_t> pick(std::span<const double> way, std::size_t count) {
     const double length = way.back() - way.front(), least = 1e-4 * length / static_cast<double>(kNodes);
-    if (!(length > 1e-9)) return {way.size() / 2};
     std::vector<std::size_t> picked;
-    const auto add = [&](std::size_t i) {
-        if (picked.empty() || way[i] > way[picked.back()] + least) picked.push_back(i);
-    };
-    if (way.size() <= kNodes) {
-        for (std::size_t i = 0; i < way.size(); ++i) add(i);
-        return picked;
-    }
-    for (std::size_t j = 0; j < kNodes; ++j) {
-        const double wanted =
-            way.front() + length * 0.5 * (1.0 - std::cos(kPi * (2.0 * static_cast<double>(j) + 1.0) / (2.0 * kNodes)));
-        const auto above = std::lower_bound(way.begin(), way.end(), wanted);
-        auto i = static_cast<std::size_t>(above - way.begin());
+    for (std::size_t j = 0; j < count; ++j) {
+        const double angle = kPi * (static_cast<double>(j) + 0.5) / static_cast<double>(count);
+        const double wanted = way.front() + length * 0.5 * (1.0 - std::cos(angle));
+        auto i = static_cast<std::size_t>(std::lower_bound(way.begin(), way.end(), wanted) - way.begin());
         if (i > 0 && (i == way.size() || wanted - way[i - 1] < way[i] - wanted)) --i;
-        add(i);
+        if (picked.empty() || way[i] > way[picked.back()] + least) picked.push_back(i);
     }
     return picked;
+}
+
+/// Where to cut an interval: in its largest gap if that is wide (between bands), else in the middle.
+std::size_t place_to_cut(std::span<const double> way) {
+    constexpr double kWide = 0.2;
+    std::size_t widest = 1;
+    for (std::size_t i = 2; i < way.size(); ++i)
+        if (way[i] - way[i - 1] > way[widest] - way[widest - 1]) widest = i;
+    if (way[widest] - way[widest - 1] > kWide * (way.back() - way.front())) return widest;
+    const double middle = 0.5 * (way.front() + way.back());
+    const auto half = static_cast<std::size_t>(std::lower_bound(way.begin(), way.end(), middle) - way.begin());
+    return std::clamp<std::size_t>(half, 1, way.size() - 1);
 }
 
 /// Functions of the optics that must come out right between nodes, all of the order of 1; the first ones are transmittances.
@@ -155,40 +158,36 @@ std::vector<double> SmokeNodes::falling_extinction(std::span<const std::size_t> 
     return way.back() - way.front() > 1e-6 ? way : std::vector<double>{};
 }
 
-/// Makes an interval its own, or its halves.
+/// Makes nodes for an interval, as few as do, or cuts it in two.
 void SmokeNodes::cut(std::span<const std::size_t> order, std::span<const double> curve) {
     const std::vector<double> by_extinction = falling_extinction(order);
     const std::span<const double> way = by_extinction.empty() ? curve : std::span<const double>(by_extinction);
-    const auto picked = pick(way);
-    std::vector<double> places;
-    std::vector<std::array<double, kTrials>> known;
-    const Optics& reference = optics_[order[order.size() / 2]];
-    for (const std::size_t i : picked) {
-        places.push_back(way[i]);
-        known.push_back(trials(optics_[order[i]], reference));
-    }
-    std::vector<std::array<double, kNodes>> weights;
-    bool good = true;
-    for (std::size_t i = 0; i < order.size() && good; ++i) {
-        weights.push_back(lagrange(places, way[i]));
-        std::array<double, kTrials> found{};
-        for (std::size_t t = 0; t < kTrials; ++t)
-            for (std::size_t j = 0; j < known.size(); ++j) found[t] += weights.back()[j] * known[j][t];
-        good = agree(found, trials(optics_[order[i]], reference));
-    }
-    if (!good && order.size() > 1) {
-        const double middle = 0.5 * (way.front() + way.back());
-        const auto half = static_cast<std::size_t>(std::lower_bound(way.begin(), way.end(), middle) - way.begin());
-        const std::size_t first = std::clamp<std::size_t>(half, 1, order.size() - 1);
-        cut(order.first(first), curve.first(first));
-        cut(order.subspan(first), curve.subspan(first));
+    std::vector<std::array<double, kTrials>> wanted;
+    for (const std::size_t l : order) wanted.push_back(trials(optics_[l], optics_[order[order.size() / 2]]));
+    for (std::size_t count = 1; count <= std::min(kNodes, order.size()); ++count) {
+        const auto picked = pick(way, count);
+        std::vector<double> places;
+        for (const std::size_t i : picked) places.push_back(way[i]);
+        std::vector<std::array<double, kNodes>> weights;
+        bool good = true;
+        for (std::size_t i = 0; i < order.size() && good; ++i) {
+            weights.push_back(lagrange(places, way[i]));
+            std::array<double, kTrials> found{};
+            for (std::size_t t = 0; t < kTrials; ++t)
+                for (std::size_t j = 0; j < picked.size(); ++j) found[t] += weights.back()[j] * wanted[picked[j]][t];
+            good = agree(found, wanted[i]);
+        }
+        if (!good) continue;
+        const auto begin = static_cast<int>(wavelength_of_.size());
+        for (const std::size_t i : picked) wavelength_of_.push_back(order[i]);
+        for (std::size_t i = 0; i < order.size(); ++i)
+            for (std::size_t j = 0; j < picked.size(); ++j)
+                if (weights[i][j] != 0.0) shares_of_[order[i]].push_back({begin + static_cast<int>(j), weights[i][j]});
         return;
     }
-    const auto begin = static_cast<int>(wavelength_of_.size());
-    for (const std::size_t i : picked) wavelength_of_.push_back(order[i]);
-    for (std::size_t i = 0; i < order.size(); ++i)
-        for (std::size_t j = 0; j < picked.size(); ++j)
-            if (weights[i][j] != 0.0) shares_of_[order[i]].push_back({begin + static_cast<int>(j), weights[i][j]});
+    const std::size_t first = place_to_cut(curve);
+    cut(order.first(first), curve.first(first));
+    cut(order.subspan(first), curve.subspan(first));
 }
 
 /// Entries of each block of wavelengths: the nodes that any of them needs.

@@ -14,9 +14,9 @@ class SmokeLight;
 
 /// The few wavelengths at which rays are marched through smoke (SmokeRun), and how the results come to all others. Extinction,
 /// asymmetry and the share of flames are smooth along wavelength, so the wavelengths are cut, in ascending order, into intervals
-/// with four of them as nodes and cubics between, halved until trial functions of those spectra come out right: transmittances
+/// with up to four of them as nodes and polynomials between, cut in two until trial functions of those spectra come out right: transmittances
 /// of optical depths up to 8 within 2e-4 and, above 1e-3, 2 % of themselves; phase functions and shares within 5e-3. Weights
-/// sum to 1, so a furnace stays one. Intervals of few wavelengths are their own nodes and exact.
+/// sum to 1, so a furnace stays one. A wavelength alone is its own node.
 class SmokeNodes {
 public:
     /// \param warmest_K  temperature of smoke

@@ -1,8 +1,17 @@
 #include "render/smoke_ray.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pyroscene::render {
+namespace {
+
+// Pieces are joined up to this optical depth at any wavelength, of the smoke and of what lies between its ends and the sun; light
+// is linear from end to end, so the error is its curvature over the stretch: below 2e-4 of what it scatters.
+constexpr double kThin = 0.05;
+constexpr float kLeastWarmer_K = 2.0F, kFlameChange = 0.2F;
+
+}  // namespace
 
 SmokeRay::SmokeRay(const SceneTables& tables, const FlameColumns& flame, const FlameColumns& plume, const SmokeLight& light,
                    const SmokeNodes& nodes)
@@ -12,6 +21,8 @@ SmokeRay::SmokeRay(const SceneTables& tables, const FlameColumns& flame, const F
       plume_(&plume),
       light_(&light),
       nodes_(&nodes),
+      thickest_per_m_(static_cast<double>(
+          *std::max_element(tables.smoke.extinction_per_m.begin(), tables.smoke.extinction_per_m.end()))),
       sun_(static_cast<std::size_t>(tables.stride), 0.0F) {}
 
 bool SmokeRay::march(Vec3 start_m, Vec3 end_m) {
@@ -21,19 +32,15 @@ bool SmokeRay::march(Vec3 start_m, Vec3 end_m) {
     start_m_ = start_m;
     way_m_ = end_m - start_m;
     direction_ = way_m_ / length(way_m_);
-    lit_until_ = -1.0;
     pieces_.clear();
     merge_segments(flame_segments_, smoke_segments_, length(way_m_),
                    [&](const MixedPiece& piece) { pieces_.push_back(piece); });
     return true;
 }
 
-/// Light that reaches the part of the ray between two of its parameters.
-void SmokeRay::light(SmokeStep& step, double from, double to) {
+/// Light that reaches a part of the ray, from what it is at its ends.
+void SmokeRay::light(SmokeStep& step, const SmokeLight::Node& near, const SmokeLight::Node& far) const {
     const SmokeSpectra& smoke = tables_->smoke;
-    const SmokeLight::Node near = from == lit_until_ ? lit_ : light_->at(start_m_ + from * way_m_);
-    const SmokeLight::Node far = light_->at(start_m_ + to * way_m_);
-    lit_ = far, lit_until_ = to;
     const auto middle = [&](SmokeLight::Quantity q) { return 0.5F * (near[q] + far[q]); };
     step.sun_column = near[SmokeLight::ToSun];
     step.sun_column_far = far[SmokeLight::ToSun];
@@ -55,25 +62,60 @@ void SmokeRay::light(SmokeStep& step, double from, double to) {
     if (step.flame_bundling > 0.0F) step.flame_cosine = static_cast<float>(-dot(bundle, direction_)) / step.flame_bundling;
 }
 
-/// Part of a piece with smoke, between two parameters of the ray; its flame only when that is soot alone.
-void SmokeRay::add_step(const MixedPiece& piece, double from, double to) {
-    const PlanckRows& planck = tables_->planck;
+bool SmokeRay::joins(const MixedPiece& piece, const SmokeLight::Node& far) const {
+    if (!stretch_ || stretch_->piece.to != piece.from || stretch_->piece.flame_m > 0.0 || piece.flame_m > 0.0) return false;
+    if (thickest_per_m_ * (stretch_->piece.smoke_m + piece.smoke_m) > kThin) return false;
+    if (std::abs(stretch_->piece.smoke_K - piece.smoke_K) > kLeastWarmer_K) return false;
+    const SmokeLight::Node& near = stretch_->near;
+    const auto change = [&](SmokeLight::Quantity q) { return std::abs(far[q] - near[q]); };
+    return thickest_per_m_ * static_cast<double>(change(SmokeLight::ToSun)) < kThin &&
+           change(SmokeLight::FlamePerM2) <= kFlameChange * near[SmokeLight::FlamePerM2];
+}
+
+/// A piece with smoke, or part of one.
+void SmokeRay::add(const MixedPiece& piece) {
+    SmokeLight::Node far{};
+    if (tables_->smoke.scatters) far = light_->at(start_m_ + piece.to * way_m_);
+    if (joins(piece, far)) {
+        MixedPiece& all = stretch_->piece;
+        const double smoke_m = all.smoke_m + piece.smoke_m;
+        all.smoke_K += static_cast<float>(piece.smoke_m / smoke_m) * (piece.smoke_K - all.smoke_K);
+        all.smoke_m = smoke_m;
+        all.to = piece.to;
+        stretch_->far = far;
+        return;
+    }
+    const bool goes_on = stretch_ && stretch_->piece.to == piece.from;
+    Stretch next{piece, {}, far};
+    if (goes_on)
+        next.near = stretch_->far;
+    else if (tables_->smoke.scatters)
+        next.near = light_->at(start_m_ + piece.from * way_m_);
+    close_stretch();
+    stretch_ = next;
+}
+
+void SmokeRay::close_stretch() {
+    if (!stretch_) return;
     const auto blend = [&](float T_K) {
-        const PlanckRows::Lookup at = planck.at(T_K);
-        return PlanckBlend{planck.row(at.row), at.count, {at.weight[0], at.weight[1], at.weight[2], at.weight[3]}};
+        const PlanckRows::Lookup at = tables_->planck.at(T_K);
+        return PlanckBlend{tables_->planck.row(at.row), at.count, {at.weight[0], at.weight[1], at.weight[2], at.weight[3]}};
     };
+    const MixedPiece& piece = stretch_->piece;
     SmokeStep& step = steps_.emplace_back();
-    step.smoke_m = static_cast<float>(piece.smoke_m * (to - from) / (piece.to - piece.from));
+    step.smoke_m = static_cast<float>(piece.smoke_m);
     step.smoke = blend(piece.smoke_K);
-    if (!tables_->mixture && piece.flame_m > 0.0) {
+    if (piece.flame_m > 0.0) {
         step.flame_m = static_cast<float>(piece.flame_m);
         step.flame = blend(piece.flame_K);
     }
-    if (tables_->smoke.scatters) light(step, from, to);
+    if (tables_->smoke.scatters) light(step, stretch_->near, stretch_->far);
+    stretch_.reset();
 }
 
 /// Sends the gathered steps to the sensor.
 void SmokeRay::send(float scale, const Spectra& out) {
+    close_stretch();
     if (steps_.empty()) return;
     const SmokeSpectra& smoke = tables_->smoke;
     SmokeRun run;
@@ -118,16 +160,21 @@ void SmokeRay::emit(float scale, MixtureRay* mixture, const Spectra& out) {
                        hot.count, hot.weight.data(), scale, out.tau, out.flame);
     };
     for (const MixedPiece& p : pieces_) {
-        const bool gas = mixture != nullptr && p.flame_m > 0.0;
         if (!(p.smoke_m > 0.0)) {
             burn(p);
-        } else if (gas) {  // half of the smoke on either side of flame with gas, which is right to second order
-            const double middle = 0.5 * (p.from + p.to);
-            add_step(p, p.from, middle);
+        } else if (mixture != nullptr && p.flame_m > 0.0) {
+            // Half of the smoke on either side of flame with gas, which is right to second order.
+            MixedPiece half = p;
+            half.flame_m = 0.0;
+            half.smoke_m *= 0.5;
+            half.to = 0.5 * (p.from + p.to);
+            add(half);
             burn(p);
-            add_step(p, middle, p.to);
+            half.from = half.to;
+            half.to = p.to;
+            add(half);
         } else {
-            add_step(p, p.from, p.to);
+            add(p);
         }
     }
     send(scale, out);

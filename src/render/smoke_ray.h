@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/mixed_march.h"
@@ -28,8 +29,15 @@ public:
     void emit(float scale, MixtureRay* mixture, const Spectra& out);
 
 private:
-    void add_step(const MixedPiece& piece, double from, double to);
-    void light(SmokeStep& step, double from, double to);
+    /// Neighbouring pieces of thin smoke in much the same light, taken as one.
+    struct Stretch {
+        MixedPiece piece;  ///< its flame is soot alone, or none
+        SmokeLight::Node near{}, far{};
+    };
+    void add(const MixedPiece& piece);
+    [[nodiscard]] bool joins(const MixedPiece& piece, const SmokeLight::Node& far) const;
+    void close_stretch();
+    void light(SmokeStep& step, const SmokeLight::Node& near, const SmokeLight::Node& far) const;
     void send(float scale, const Spectra& out);
 
     const SceneTables* tables_;
@@ -40,8 +48,8 @@ private:
     Vec3 start_m_, way_m_, direction_;
     std::vector<RaySegment> flame_segments_, smoke_segments_;
     std::vector<MixedPiece> pieces_;
-    SmokeLight::Node lit_{};  ///< light at the ray parameter where the last step ended
-    double lit_until_ = -1.0;
+    double thickest_per_m_ = 0.0;  ///< largest extinction of fill 1
+    std::optional<Stretch> stretch_;
     std::vector<SmokeStep> steps_;  ///< gathered, not yet sent
     std::vector<float> at_nodes_;
     std::vector<float> sun_;  ///< irradiance times phase function of this ray

@@ -70,4 +70,19 @@ struct SmokeRun {
     enum Spectrum { Through, Beam, Sky, Ground, GroundLit, Irradiance, Flames, kSpectra };
 };
 
+/// Bodies of flame and patches of front as point sources of light, [n] each, n a multiple of the kernels' lanes; weight 0 fills up.
+struct FlameSources {
+    int n = 0;
+    const float *x_m = nullptr, *y_m = nullptr, *z_m = nullptr;
+    const float *weight = nullptr, *softening_m2 = nullptr;
+    const float* flat = nullptr;  ///< 1 for a patch: it shines upward with the cosine, twice its mean straight up; else 0
+};
+
+/// Their light at a point: sums over sources of q = weight / (r^2 + softening), of a patch times 2 sqrt((z^2 + softening) / (r^2 +
+/// softening)) above it and 0 below, of q times the unit way from the source, and of q
+/// times the place of the source.
+struct FlameLightAt {
+    float per_m2, way[3], place_m[3];
+};
+
 }  // namespace pyroscene::render

@@ -8,6 +8,8 @@ namespace pyroscene::render {
 struct PlaneTrace;
 struct MixturePiece;
 struct SmokeRun;
+struct FlameSources;
+struct FlameLightAt;
 struct DiffusionNodes;
 struct DiffuseColumns;
 struct DiffuseSource;
@@ -25,6 +27,8 @@ struct SpectralKernels {
                  float scale, float* tau, float* flame);
     /// Consecutive pieces with smoke and perhaps flame: see SmokeRun.
     void (*emit_smoke)(const SmokeRun& run);
+    /// Point sources of light at a point {x, y, z}: see FlameLightAt.
+    void (*light_of_flames)(const FlameSources& sources, const float* at_m, FlameLightAt& out);
     /// Light scattered more than once: what a piece of smoke sends on, and what reaches the ground below (smoke_diffusion.h).
     void (*diffuse_source)(const DiffusionNodes& nodes, const DiffuseColumns& columns, DiffuseSource& out);
     void (*diffuse_shade)(const DiffusionNodes& nodes, float above, float to_sun, DiffuseShade& out);
