@@ -27,6 +27,7 @@ echo "|---|---|---|---|---|---|"
 "$build/bench/bench_spread"
 "$build/bench/bench_unmix" --pairs "$pairs"
 "$build/bench/bench_rasters" --pairs "$pairs"
+"$build/bench/bench_large_scene"
 
 # The thesis case end to end: rasters in, georeferenced products out.
 cli="$build/src/cli/pyroscene"

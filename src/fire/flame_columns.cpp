@@ -54,38 +54,35 @@ std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField
     check(state, surface, terrain_m, fire);
     const RandomKey key{fire.seed, stream_id("flame jitter"), random_frame(state.time_s)};
     std::vector<FlameColumn> columns;
-    for (int row = 0; row < surface.grid.rows; ++row) {
-        for (int col = 0; col < surface.grid.cols; ++col) {
-            const std::size_t fine_cell = surface.grid.index(row, col);
-            const std::size_t cell = state.cell_class.grid.index(row / surface.refinement, col / surface.refinement);
-            const double fraction = surface.front_fraction[fine_cell], cell_fraction = state.front_fraction.values[cell];
-            if (!(fraction > 0.0 && cell_fraction > 0.0)) continue;
+    surface.for_each_own_cell([&](int row, int col, std::size_t i) {
+        const std::size_t cell = state.cell_class.grid.index(row / surface.refinement, col / surface.refinement);
+        const double fraction = surface.front_fraction[i], cell_fraction = state.front_fraction.values[cell];
+        if (!(fraction > 0.0 && cell_fraction > 0.0)) return;
 
-            // The height is a mean over the cell; over the part that flames the same volume stands higher.
-            FlameColumn column{.x_m = surface.grid.x_centre_m(col),
-                               .y_m = surface.grid.y_centre_m(row),
-                               .width_m = surface.grid.cell_m,
-                               .area_fraction = fraction,
-                               .top_m = state.flame_height_m.values[cell] / cell_fraction,
-                               .tilt_rad = state.flame_tilt_rad.values[cell],
-                               .azimuth_rad = state.flame_azimuth_rad.values[cell],
-                               .temperature_K = flame.temperature_K};
-            jitter(column, key, fine_cell, fire.jitter_m);
-            column.z_m = bilinear_or_own(terrain_m, terrain_m.grid.col_at(column.x_m), terrain_m.grid.row_at(column.y_m));
-            if (std::isnan(column.z_m)) continue;
-            column.x_m -= scene_origin.x;
-            column.y_m -= scene_origin.y;
-            if (flame.profile.shape != TemperatureProfile::Shape::Constant) column.flame_m = column.top_m;
-            if (column.top_m > 0.0) columns.push_back(column);
+        // The height is a mean over the cell; over the part that flames the same volume stands higher.
+        FlameColumn column{.x_m = surface.grid.x_centre_m(col),
+                           .y_m = surface.grid.y_centre_m(row),
+                           .width_m = surface.grid.cell_m,
+                           .area_fraction = fraction,
+                           .top_m = state.flame_height_m.values[cell] / cell_fraction,
+                           .tilt_rad = state.flame_tilt_rad.values[cell],
+                           .azimuth_rad = state.flame_azimuth_rad.values[cell],
+                           .temperature_K = flame.temperature_K};
+        jitter(column, key, surface.grid.index(row, col), fire.jitter_m);
+        column.z_m = bilinear_or_own(terrain_m, terrain_m.grid.col_at(column.x_m), terrain_m.grid.row_at(column.y_m));
+        if (std::isnan(column.z_m)) return;
+        column.x_m -= scene_origin.x;
+        column.y_m -= scene_origin.y;
+        if (flame.profile.shape != TemperatureProfile::Shape::Constant) column.flame_m = column.top_m;
+        if (column.top_m > 0.0) columns.push_back(column);
 
-            const double ember_m = state.ember_height_m.values[cell] / cell_fraction;
-            if (!(ember_m > 0.0) || fire.embers.drift) continue;
-            column.flame_m = 0.0;
-            column.bottom_m = column.top_m + flame.ember_gap_m;
-            column.top_m = column.bottom_m + ember_m;
-            columns.push_back(column);
-        }
-    }
+        const double ember_m = state.ember_height_m.values[cell] / cell_fraction;
+        if (!(ember_m > 0.0) || fire.embers.drift) return;
+        column.flame_m = 0.0;
+        column.bottom_m = column.top_m + flame.ember_gap_m;
+        column.top_m = column.bottom_m + ember_m;
+        columns.push_back(column);
+    });
     if (fire.embers.drift) add_embers(state, time_s, terrain_m, fire, flame, scene_origin, columns);
     return columns;
 }

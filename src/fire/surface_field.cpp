@@ -15,10 +15,12 @@ namespace pyroscene::fire {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr std::int32_t kPlain = 0, kNoData = 1;  // blocks that cells share
 
 /// One fine cell of the map cell at hand.
 struct FineCell {
-    std::size_t index = 0;   ///< in the fine grid
+    std::size_t number = 0;  ///< in the fine grid
+    std::size_t index = 0;   ///< in the arrays
     float arrival_s = kNaN;  ///< interpolated arrival, NaN without arrival data
     bool reached = true;     ///< the fire has been here
     double order = 0.0;      ///< among reached, then among others, those with the smallest order flame first
@@ -46,7 +48,7 @@ void list_fine_cells(const Context& c, const SurfaceField& out, int row, int col
     fine.clear();
     for (int r = row * n; r < (row + 1) * n; ++r) {
         for (int k = col * n; k < (col + 1) * n; ++k) {
-            FineCell cell{.index = out.grid.index(r, k)};
+            FineCell cell{.number = out.grid.index(r, k), .index = out.index(r, k)};
             if (shaped) {
                 cell.arrival_s = bilinear_or_own(c.state.predicted_arrival_time_s, (k + 0.5) / n, (r + 0.5) / n);
                 cell.reached = cell.arrival_s <= c.time_s;
@@ -77,11 +79,11 @@ void sort_by_flaming(const Context& c, std::size_t cell, std::vector<FineCell>& 
                                     [&](const FineCell& f) { return f.reached && c.time_s - f.arrival_s > fast_s; });
     for (FineCell& f : fine) {
         const bool strip = !std::isnan(f.arrival_s) && !passed;
-        f.order = strip ? std::abs(c.time_s - f.arrival_s) : uniform01(c.patches, f.index);
+        f.order = strip ? std::abs(c.time_s - f.arrival_s) : uniform01(c.patches, f.number);
     }
     std::sort(fine.begin(), fine.end(), [](const FineCell& a, const FineCell& b) {
         if (a.reached != b.reached) return a.reached;
-        return a.order != b.order ? a.order < b.order : a.index < b.index;
+        return a.order != b.order ? a.order < b.order : a.number < b.number;
     });
 }
 
@@ -124,9 +126,21 @@ SurfaceField blank_field(const FireState& state, const FireParameters& parameter
     out.refinement = refinement;
     out.front_temperature_K = parameters.front_temperature_K;
     out.ambient_temperature_K = parameters.ambient_temperature_K;
-    out.base_temperature_K.assign(out.grid.size(), static_cast<float>(parameters.ambient_temperature_K));
-    out.front_fraction.assign(out.grid.size(), 0.0F);
-    out.burned.assign(out.grid.size(), 0);
+    // Blocks that many cells share first, then one for each cell that burns or has burnt.
+    const auto& classes = state.cell_class.values;
+    out.block_of_cell.assign(classes.size(), kPlain);
+    std::int32_t next = static_cast<std::int32_t>(SurfaceField::kSharedBlocks);
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        const auto c = static_cast<CellClass>(classes[i]);
+        if (c == CellClass::NoData) out.block_of_cell[i] = kNoData;
+        if (c == CellClass::Front || c == CellClass::Scar) out.block_of_cell[i] = next++;
+    }
+    const auto block_size = static_cast<std::size_t>(refinement) * static_cast<std::size_t>(refinement);
+    const std::size_t size = static_cast<std::size_t>(next) * block_size;
+    out.base_temperature_K.assign(size, static_cast<float>(parameters.ambient_temperature_K));
+    out.front_fraction.assign(size, 0.0F);
+    out.burned.assign(size, 0);
+    std::fill_n(out.base_temperature_K.begin() + static_cast<std::ptrdiff_t>(kNoData * block_size), block_size, kNaN);
     return out;
 }
 
@@ -146,21 +160,12 @@ SurfaceField surface_at(const FireState& state, double time_s, const FireParamet
         for (int col = 0; col < state.cell_class.grid.cols; ++col) {
             const std::size_t cell = state.cell_class.grid.index(row, col);
             const auto cell_class = static_cast<CellClass>(state.cell_class.values[cell]);
-            if (cell_class == CellClass::Unburned) continue;
+            if (cell_class != CellClass::Front && cell_class != CellClass::Scar) continue;
             list_fine_cells(context, out, row, col, fine);
-            switch (cell_class) {
-                case CellClass::Front:
-                    fill_front(context, out, cell, fine);
-                    break;
-                case CellClass::Scar:
-                    fill_scar(context, out, cell, fine);
-                    break;
-                case CellClass::NoData:
-                    for (const FineCell& f : fine) out.base_temperature_K[f.index] = kNaN;
-                    break;
-                case CellClass::Unburned:
-                    break;
-            }
+            if (cell_class == CellClass::Front)
+                fill_front(context, out, cell, fine);
+            else
+                fill_scar(context, out, cell, fine);
         }
     }
     return out;

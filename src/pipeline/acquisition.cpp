@@ -212,15 +212,17 @@ int surroundings_material(const Scenario& scenario, const inputs::SceneInputs& i
 std::vector<double> shares_of_ground(const inputs::SceneInputs& in, const fire::SurfaceField& surface,
                                      std::size_t materials) {
     std::vector<double> share(materials, 0.0);
-    const MapGrid& fine = surface.grid;
-    const double cell = 1.0 / static_cast<double>(fine.size());
-    for (int row = 0; row < fine.rows; ++row)
-        for (int col = 0; col < fine.cols; ++col) {
-            const std::size_t i = fine.index(row, col);
-            const double burnt = surface.burned[i] != 0 ? 1.0 : std::clamp<double>(surface.front_fraction[i], 0.0, 1.0);
-            const int r = row * in.grid.rows / fine.rows, c = col * in.grid.cols / fine.cols;
+    const double cell = 1.0 / static_cast<double>(in.grid.size());
+    const auto block_size = static_cast<std::size_t>(surface.refinement) * static_cast<std::size_t>(surface.refinement);
+    for (int row = 0; row < in.grid.rows; ++row)
+        for (int col = 0; col < in.grid.cols; ++col) {
+            const std::size_t first = surface.block(row, col) * block_size;
+            double burnt = 0.0;
+            for (std::size_t i = first; i < first + block_size; ++i)
+                burnt += surface.burned[i] != 0 ? 1.0 : std::clamp<double>(surface.front_fraction[i], 0.0, 1.0);
+            burnt /= static_cast<double>(block_size);
             share.back() += burnt * cell;
-            share[in.cover.at(r, c)] += (1.0 - burnt) * cell;
+            share[in.cover.at(row, col)] += (1.0 - burnt) * cell;
         }
     return share;
 }

@@ -64,14 +64,12 @@ void FireDetail::mark_ground(const RenderScene& scene) {
     // The detail's fine cells that a fine cell of the surface touches.
     const auto first = [&](int i) { return i * fine_ / per_map_cell; };
     const auto last = [&](int i) { return ((i + 1) * fine_ + per_map_cell - 1) / per_map_cell - 1; };
-    for (int r = 0; r < surface.grid.rows; ++r)
-        for (int c = 0; c < surface.grid.cols; ++c) {
-            const std::size_t i = surface.grid.index(r, c);
-            if (surface.base_temperature_K[i] > hot_K) hot_[map_.index(r / per_map_cell, c / per_map_cell)] = 1;
-            if (!(surface.front_fraction[i] > 0.0F)) continue;
-            for (int fr = first(r); fr <= last(r); ++fr)
-                for (int fc = first(c); fc <= last(c); ++fc) mark_flaming(fr, fc);
-        }
+    surface.for_each_own_cell([&](int r, int c, std::size_t i) {
+        if (surface.base_temperature_K[i] > hot_K) hot_[map_.index(r / per_map_cell, c / per_map_cell)] = 1;
+        if (!(surface.front_fraction[i] > 0.0F)) return;
+        for (int fr = first(r); fr <= last(r); ++fr)
+            for (int fc = first(c); fc <= last(c); ++fc) mark_flaming(fr, fc);
+    });
 }
 
 void FireDetail::mark_lit_ground(const GroundIrradiance& light) {

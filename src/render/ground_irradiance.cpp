@@ -252,12 +252,12 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
     const bool rough = highest_m - lowest_m > kRough_m;
     if (scene.flame->empty() || settings.flames == GroundLightSettings::Flames::None) {
         light.row_of_cell.assign(light.grid.size(), -1);
-        if (rough) light.sky_view = sky_view(scene, light.row_of_cell);
+        if (rough) light.sky_view = std::make_shared<SkyView>(scene);
         return light;
     }
     const LightScene shared(scene, settings);
     const std::vector<std::size_t> cells = receivers(shared, light);
-    if (rough) light.sky_view = sky_view(scene, light.row_of_cell);
+    if (rough) light.sky_view = std::make_shared<SkyView>(scene);
     const std::size_t values = cells.size() * static_cast<std::size_t>(light.stride);
     light.irradiance_W_m2_um.resize(values);
     if (tables.has_sky) light.sky_irradiance_W_m2_um.resize(values);

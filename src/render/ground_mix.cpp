@@ -1,6 +1,7 @@
 #include "render/ground_mix.h"
 
 #include <algorithm>
+#include <array>
 
 namespace pyroscene::render {
 GroundMix::GroundMix(const SceneTables& tables)
@@ -129,16 +130,18 @@ void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out)
 GroundCell ground_cell(const RenderScene& scene, const SceneTables& tables, Vec3 point_m) noexcept {
     const double x_m = point_m.x + scene.scene_origin_m.x, y_m = point_m.y + scene.scene_origin_m.y;
     const auto cell = [&](const MapGrid& grid) {  // a hit on the very rim may round to the outside
-        return grid.index(std::clamp(static_cast<int>(grid.row_at(y_m)), 0, grid.rows - 1),
-                          std::clamp(static_cast<int>(grid.col_at(x_m)), 0, grid.cols - 1));
+        return std::array{std::clamp(static_cast<int>(grid.row_at(y_m)), 0, grid.rows - 1),
+                          std::clamp(static_cast<int>(grid.col_at(x_m)), 0, grid.cols - 1)};
     };
     const fire::SurfaceField& surface = *scene.surface;
-    const std::size_t fine = cell(surface.grid);
+    const auto [row, col] = cell(surface.grid);
+    const std::size_t fine = surface.index(row, col);
     GroundCell ground;
     ground.base_K = surface.base_temperature_K[fine];
     ground.front_fraction = std::clamp(surface.front_fraction[fine], 0.0F, 1.0F);
     ground.burned = surface.burned[fine] != 0;
-    ground.base_material = ground.burned ? tables.burnt_material : scene.cover->values[cell(scene.cover->grid)];
+    const auto [cover_row, cover_col] = cell(scene.cover->grid);
+    ground.base_material = ground.burned ? tables.burnt_material : scene.cover->at(cover_row, cover_col);
     return ground;
 }
 

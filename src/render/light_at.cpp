@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/terrain_sight.h"
+
 namespace pyroscene::render {
 
 void light_around(const GroundIrradiance& light, double x_m, double y_m, GroundLight& out) noexcept {
@@ -21,7 +23,7 @@ void light_around(const GroundIrradiance& light, double x_m, double y_m, GroundL
         const std::size_t cell = grid.index(r + dr, c + dc);
         const std::int32_t found = light.row_of_cell[cell];
         if (found < 0) {
-            const double sky = light.sky_view.empty() ? 1.0 : static_cast<double>(light.sky_view[cell]);
+            const double sky = light.sky_view ? light.sky_view->at(cell) : 1.0;
             out.open += weight * sky;
             out.hidden += weight * (1.0 - sky);
             continue;

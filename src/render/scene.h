@@ -112,6 +112,8 @@ struct LightSamplingError {
     double rms_relative = 0.0;    ///< per receiver, weighted by its irradiance
 };
 
+class SkyView;
+
 /// Light on the ground, independent of any camera, on the map grid of the terrain. Cells near flames have a row with their
 /// irradiances, means over the cell on its slope: from flames, and from the sky as far as flames and terrain let it
 /// through, with what slopes in view emit and reflect. Cells without a row receive nothing from flames; of their hemisphere
@@ -124,7 +126,7 @@ struct GroundIrradiance {
     std::vector<float> irradiance_W_m2_um;          ///< [row][lambda] by flames
     std::vector<float> sky_irradiance_W_m2_um;      ///< [row][lambda] diffuse sun; empty at night
     std::vector<float> thermal_irradiance_W_m2_um;  ///< [row][lambda] thermal sky and glowing slopes; empty if none
-    std::vector<float> sky_view;                    ///< [map cell without a row] 0 to 1; empty on a plane
+    std::shared_ptr<const SkyView> sky_view;        ///< (terrain_sight.h) for cells without a row; null on a plane
     LightSamplingError sampling_error;
 };
 

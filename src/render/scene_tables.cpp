@@ -26,6 +26,21 @@ void check_length(std::size_t found, std::size_t expected, std::string_view what
     require(found == expected, "scene", fmt::format("{} has {} values, expected {}", what, found, expected));
 }
 
+void check_surface(const fire::SurfaceField& surface) {
+    const auto n = static_cast<std::size_t>(std::max(surface.refinement, 1));
+    const std::size_t map_cells = surface.grid.size() / (n * n);
+    std::size_t cells = surface.grid.size();
+    if (const auto& blocks = surface.block_of_cell; !blocks.empty()) {
+        check_length(blocks.size(), map_cells, "block_of_cell");
+        const auto [least, most] = std::minmax_element(blocks.begin(), blocks.end());
+        require(*least >= 0, "scene", "block_of_cell holds a negative number");
+        cells = std::max(static_cast<std::size_t>(*most) + 1, fire::SurfaceField::kSharedBlocks) * n * n;
+    }
+    check_length(surface.base_temperature_K.size(), cells, "base_temperature_K");
+    check_length(surface.front_fraction.size(), cells, "front_fraction");
+    check_length(surface.burned.size(), cells, "burned");
+}
+
 /// {lowest, highest} temperature of ground and flame.
 std::pair<double, double> temperature_range_K(const RenderScene& scene) {
     double lowest = std::min(scene.surface->front_temperature_K, scene.surface->ambient_temperature_K);
@@ -140,9 +155,7 @@ void check_scene(const RenderScene& scene) {
                 fmt::format("surroundings of material {}, expected one of {} materials", scene.surroundings->material,
                             optics.material_count));
     }
-    check_length(scene.surface->base_temperature_K.size(), scene.surface->grid.size(), "base_temperature_K");
-    check_length(scene.surface->front_fraction.size(), scene.surface->grid.size(), "front_fraction");
-    check_length(scene.surface->burned.size(), scene.surface->grid.size(), "burned");
+    check_surface(*scene.surface);
     check_length(scene.cover->values.size(), scene.cover->grid.size(), "cover");
     const auto highest = std::max_element(scene.cover->values.begin(), scene.cover->values.end());
     require(highest == scene.cover->values.end() || *highest < optics.material_count, "scene",

@@ -42,16 +42,20 @@ double skyline_slope(const TerrainMesh& terrain, Vec3 from_m, double dx, double 
     }
 }
 
-std::vector<float> sky_view(const RenderScene& scene, const std::vector<std::int32_t>& row_of_cell) {
-    std::vector<float> open(scene.terrain->grid().size(), 1.0F);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, open.size(), 256), [&](const auto& cells) {
-        for (std::size_t cell = cells.begin(); cell != cells.end(); ++cell) {
-            if (row_of_cell[cell] >= 0) continue;
-            const double hidden_sr = hidden_by_terrain(*scene.terrain, receiver_at(scene, cell), 1, [](Vec3, double) {});
-            open[cell] = static_cast<float>(std::clamp(1.0 - hidden_sr / kPi, 0.0, 1.0));
-        }
-    });
-    return open;
+SkyView::SkyView(const RenderScene& scene) : known_(std::make_unique<std::atomic<float>[]>(scene.terrain->grid().size())) {
+    terrain_.terrain = scene.terrain;
+    terrain_.scene_origin_m = scene.scene_origin_m;
+}
+
+double SkyView::at(std::size_t cell) const noexcept {
+    // Threads that ask at the same time find the same.
+    float known = known_[cell].load(std::memory_order_relaxed);
+    if (known == 0.0F) {
+        const double hidden_sr = hidden_by_terrain(*terrain_.terrain, receiver_at(terrain_, cell), 1, [](Vec3, double) {});
+        known = 1.0F + static_cast<float>(std::clamp(1.0 - hidden_sr / kPi, 0.0, 1.0));
+        known_[cell].store(known, std::memory_order_relaxed);
+    }
+    return static_cast<double>(known - 1.0F);
 }
 
 void reflect_between_slopes(const SceneTables& tables, const std::vector<std::vector<TerrainPatch>>& patches,

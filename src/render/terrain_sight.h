@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "base/constants.h"
@@ -66,9 +68,18 @@ double hidden_by_terrain(const TerrainMesh& terrain, const Receiver& receiver, i
     return sum_sr;
 }
 
-/// Share of its cosine-weighted hemisphere in which a map cell sees the sky, 0 to 1; exact in elevation. Only for cells without
-/// a row, which have nothing better; 1 elsewhere. \param row_of_cell  as in GroundIrradiance
-std::vector<float> sky_view(const RenderScene& scene, const std::vector<std::int32_t>& row_of_cell);
+/// Share of its cosine-weighted hemisphere in which a map cell sees the sky, 0 to 1; exact in elevation. Found when a cell is
+/// first asked for, because an image sees few cells of a large map. For several threads at once.
+class SkyView {
+public:
+    /// The terrain must outlive this.
+    explicit SkyView(const RenderScene& scene);
+    [[nodiscard]] double at(std::size_t cell) const noexcept;
+
+private:
+    RenderScene terrain_;                          ///< nothing but
+    std::unique_ptr<std::atomic<float>[]> known_;  ///< [map cell] 1 + share; 0 = not asked for yet
+};
 
 /// Terrain that a receiver sees in one of its directions.
 struct TerrainPatch {
