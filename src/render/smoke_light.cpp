@@ -105,10 +105,9 @@ void SmokeLight::add_front(const SceneTables& tables, double flame_area_m2, std:
     const fire::SurfaceField& surface = *scene_->surface;
     const MapGrid& map = scene_->terrain->grid();
     std::map<std::size_t, Source> patches;  // by map cell; the weight is its area, the place a sum
-    for (std::size_t i = 0; i < surface.front_fraction.size(); ++i) {
+    surface.for_each_own_cell([&](int row, int col, std::size_t i) {
         const auto front = static_cast<double>(surface.front_fraction[i]);
-        if (!(front > 0.0) || std::isnan(surface.base_temperature_K[i])) continue;
-        const int row = static_cast<int>(i) / surface.grid.cols, col = static_cast<int>(i) % surface.grid.cols;
+        if (!(front > 0.0) || std::isnan(surface.base_temperature_K[i])) return;
         const double x_m = surface.grid.x_centre_m(col), y_m = surface.grid.y_centre_m(row);
         const double area_m2 = front * surface.grid.cell_area_m2();
         const Vec3 at{x_m - scene_->scene_origin_m.x, y_m - scene_->scene_origin_m.y, 0.0};
@@ -117,7 +116,7 @@ void SmokeLight::add_front(const SceneTables& tables, double flame_area_m2, std:
         Source& patch = patches[map.index(map_row, map_col)];
         patch.at_m = patch.at_m + area_m2 * at;
         patch.weight += area_m2;
-    }
+    });
     double area_m2 = 0.0;
     for (auto& [cell, patch] : patches) {
         patch.at_m = patch.at_m / patch.weight;
