@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "spread/rothermel.h"
 
@@ -25,6 +26,9 @@ struct FireShape {
         return burns() ? norm(x_m, y_m) - w_x * x_m - w_y * y_m : std::numeric_limits<double>::infinity();
     }
 };
+
+/// Shapes of the fire in all cells that hold from one time to the next.
+using FireShapes = std::vector<FireShape>;
 
 /// \param head               of the fastest spread (rothermel.h)
 /// \param length_to_width    of the ellipse, >= 1

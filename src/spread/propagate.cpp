@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "spread/ring.h"
+#include "spread/straight_ray.h"
 
 namespace pyroscene::spread {
 namespace {
@@ -33,6 +34,8 @@ public:
         }
         return shapes_[period];
     }
+    /// Whether the weather of a time is still kept.
+    [[nodiscard]] bool knows(double time_s) const noexcept { return first_ == 0 || job_.period_start_s[first_] <= time_s; }
     /// Nothing before this time will be asked for again.
     void forget_before(double time_s) {
         for (; first_ + 1 < shapes_.size() && job_.period_start_s[first_ + 1] <= time_s; ++first_) {
@@ -56,10 +59,12 @@ public:
           periods_(job),
           time_s_(grid_.size(), kNever),
           slowness_(grid_.size()),
-          burnt_(grid_.size(), 0) {}
+          burnt_(grid_.size(), 0),
+          parent_(grid_.size(), 0),
+          origin_(grid_.size(), 0) {}
 
     Arrival run() {
-        for (const auto& seed : job_.seeds) light(seed);
+        for (std::size_t i = 0; i < job_.seeds.size(); ++i) light(i);
         std::size_t taken = 0;
         while (!queue_.empty()) {
             const auto [time_s, cell] = queue_.top();
@@ -67,6 +72,7 @@ public:
             if (time_s > time_s_[cell] || burnt_[cell] != 0) continue;
             if (time_s > job_.end_s) break;
             burnt_[cell] = 1;
+            straighten(cell);
             if (++taken % 4096 == 0 && job_.on_progress) job_.on_progress(time_s);
             spread_from(cell);
         }
@@ -74,6 +80,8 @@ public:
     }
 
 private:
+    using Place = std::int32_t;  ///< a cell, or the seed - 1 - place
+
     struct Entry {
         double time_s;
         std::uint32_t cell;
@@ -85,30 +93,67 @@ private:
     /// Sets a cell on fire at the end of a ray with a displacement when that is earlier than what is known. `ray_s` is the time of
     /// the whole ray under the shapes of a period; what is left of it when the weather changes is done under the next.
     template <class RayTime>
-    void offer(std::size_t cell, double start_s, double x_m, double y_m, const RayTime& ray_s) {
+    void offer(std::size_t cell, Place from, double start_s, double x_m, double y_m, const RayTime& ray_s) {
         constexpr double kWorth_s = 1e-3;  ///< a burnt cell is not taken up again for less
+        const auto end = ray_end(start_s, ray_s);
+        if (!(end.time_s < time_s_[cell] - (burnt_[cell] != 0 ? kWorth_s : 0.0))) return;
+        time_s_[cell] = end.time_s;
+        slowness_[cell] = slowness(periods_.shapes(end.period)[cell], x_m, y_m);
+        parent_[cell] = from;
+        burnt_[cell] = 0;
+        queue_.push({end.time_s, static_cast<std::uint32_t>(cell)});
+    }
+
+    struct RayEnd {
+        double time_s;
+        std::size_t period;  ///< whose weather it ends in
+    };
+    /// When a ray that starts at a time ends; never when it does not before the fire is no longer followed.
+    template <class RayTime>
+    RayEnd ray_end(double start_s, const RayTime& ray_s) {
         std::size_t period = periods_.at(start_s);
         double left = 1.0, now_s = start_s;
         for (;; ++period) {
             const double whole_s = ray_s(periods_.shapes(period)), end_s = periods_.end_s(period);
-            if (now_s + left * whole_s <= end_s) {
-                now_s += left * whole_s;
-                break;
-            }
+            if (now_s + left * whole_s <= end_s) return {now_s + left * whole_s, period};
             if (whole_s < kNever) left -= std::max(0.0, end_s - now_s) / whole_s;
             now_s = end_s;
-            if (now_s > job_.end_s) return;
+            if (now_s > job_.end_s) return {kNever, period};
         }
-        if (!(now_s < time_s_[cell] - (burnt_[cell] != 0 ? kWorth_s : 0.0))) return;
-        time_s_[cell] = now_s;
-        slowness_[cell] = slowness(periods_.shapes(period)[cell], x_m, y_m);
-        burnt_[cell] = 0;
-        queue_.push({now_s, static_cast<std::uint32_t>(cell)});
+    }
+
+    /// A cell that is taken sees whether the fire would have come earlier straight from where the ray to its parent began: any way is one
+    /// that the fire can go, so that the earlier of the two is nearer to the truth. On even ground this is the way from the seed itself,
+    /// whatever the shape of the fire.
+    void straighten(std::size_t cell) {
+        constexpr double kSame_s = 1e-6, kLongest = 100.0;
+        const Place parent = parent_[cell], ancestor = parent < 0 ? parent : origin_[static_cast<std::size_t>(parent)];
+        origin_[cell] = parent;
+        if (ancestor == parent) return;
+        const Seed from = place(ancestor);
+        const double dx = static_cast<double>(cell % static_cast<std::size_t>(grid_.cols)) + 0.5 - from.col,
+                     dy = static_cast<double>(cell / static_cast<std::size_t>(grid_.cols)) + 0.5 - from.row;
+        if (dx * dx + dy * dy > kLongest * kLongest || !periods_.knows(from.time_s)) return;
+        const auto end = ray_end(from.time_s, [&](const FireShapes& shapes) {
+            return straight_ray_s(grid_, shapes, {from.col, from.row}, dx, dy);
+        });
+        if (!(end.time_s <= time_s_[cell] + kSame_s)) return;
+        origin_[cell] = ancestor;
+        time_s_[cell] = std::min(time_s_[cell], end.time_s);
+        slowness_[cell] = slowness(periods_.shapes(end.period)[cell], dx * grid_.cell_m, -dy * grid_.cell_m);
+    }
+
+    /// Where and when a ray may begin: the centre of a cell, or the seed - 1 - place.
+    [[nodiscard]] Seed place(Place at) const noexcept {
+        if (at < 0) return job_.seeds[static_cast<std::size_t>(-1 - at)];
+        return {static_cast<double>(at % grid_.cols) + 0.5, static_cast<double>(at / grid_.cols) + 0.5,
+                time_s_[static_cast<std::size_t>(at)]};
     }
 
     /// Straight rays to the cells around a seed.
-    void light(const Seed& seed) {
+    void light(std::size_t number) {
         constexpr int kRadius = 4;
+        const Seed& seed = job_.seeds[number];
         const int col = static_cast<int>(std::floor(seed.col)), row = static_cast<int>(std::floor(seed.row));
         for (int r = row - kRadius; r <= row + kRadius; ++r)
             for (int c = col - kRadius; c <= col + kRadius; ++c) {
@@ -116,23 +161,11 @@ private:
                 if (!grid_.contains(r, c) || std::hypot(dx, dy) > kRadius) continue;
                 // A seed in the very centre has no direction; any will do.
                 const double x_m = dx * grid_.cell_m, y_m = -dy * grid_.cell_m;
-                offer(grid_.index(r, c), seed.time_s, x_m == 0.0 && y_m == 0.0 ? 1e-3 : x_m, y_m,
-                      [&](const FireShapes& shapes) { return ray_from_s(seed, shapes, dx, dy); });
+                offer(grid_.index(r, c), static_cast<Place>(-1 - static_cast<std::ptrdiff_t>(number)), seed.time_s,
+                      x_m == 0.0 && y_m == 0.0 ? 1e-3 : x_m, y_m, [&](const FireShapes& shapes) {
+                          return straight_ray_s(grid_, shapes, {seed.col, seed.row}, dx, dy);
+                      });
             }
-    }
-
-    /// Mean time of the cells on a ray from a seed, sampled.
-    [[nodiscard]] double ray_from_s(const Seed& seed, const FireShapes& shapes, double dx, double dy) const noexcept {
-        const int samples = 1 + static_cast<int>(std::ceil(4.0 * std::hypot(dx, dy)));
-        double sum_s = 0.0;
-        for (int i = 0; i < samples; ++i) {
-            const double along = (i + 0.5) / samples;
-            const int row = static_cast<int>(std::floor(seed.row + along * dy)),
-                      col = static_cast<int>(std::floor(seed.col + along * dx));
-            if (!grid_.contains(row, col)) return kNever;
-            sum_s += shapes[grid_.index(row, col)].time_s(dx * grid_.cell_m, -dy * grid_.cell_m);
-        }
-        return sum_s / samples;
     }
 
     /// Mean time of the cells on the ray from a neighbour to a cell; infinite when it cannot pass.
@@ -165,7 +198,8 @@ private:
             if (!grid_.contains(row - o.row, col - o.col)) continue;
             const auto cell = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(from) - step_of(o));
             if (hopeful(now, cell, time_s_[from], ring_[d].piece[0].share, x_m(o), y_m(o)))
-                offer(cell, time_s_[from], x_m(o), y_m(o), [&](const FireShapes& then) { return ray_s(then, cell, d); });
+                offer(cell, static_cast<Place>(from), time_s_[from], x_m(o), y_m(o),
+                      [&](const FireShapes& then) { return ray_s(then, cell, d); });
             if (!now.shapes[cell].burns() || (time_s_[cell] <= time_s_[from] && !is_thin(now.shapes[cell]))) continue;
             for (const std::size_t side : {(d + 1) % kDirections, (d + kDirections - 1) % kDirections}) {
                 const Offset other = ring_[side].from;
@@ -222,17 +256,19 @@ private:
         const double between = start + share * step + bend_s(pair, -dx, -dy, step, share);
         const double last_piece = std::min(ring_[pair.direction].piece[0].share, ring_[pair.side].piece[0].share);
         if (!hopeful(now, pair.cell, between, last_piece, ray_x, ray_y)) return;
-        offer(pair.cell, between, ray_x, ray_y, [&](const FireShapes& then) {
-            const FireShape& own = then[pair.cell];
-            const double t = std::lerp(ray_s(then, pair.cell, pair.direction) / own.time_s(x, y),
-                                       ray_s(then, pair.cell, pair.side) / own.time_s(x + dx, y + dy), share) *
-                             own.time_s(ray_x, ray_y);
-            return std::isnan(t) ? kNever : t;
-        });
+        offer(pair.cell, static_cast<Place>(share < 0.5 ? pair.from : pair.beside), between, ray_x, ray_y,
+              [&](const FireShapes& then) {
+                  const FireShape& own = then[pair.cell];
+                  const double t = std::lerp(ray_s(then, pair.cell, pair.direction) / own.time_s(x, y),
+                                             ray_s(then, pair.cell, pair.side) / own.time_s(x + dx, y + dy), share) *
+                                   own.time_s(ray_x, ray_y);
+                  return std::isnan(t) ? kNever : t;
+              });
     }
 
     /// What a cubic through both times with both slownesses adds to the straight line between two cells, limited.
     [[nodiscard]] double bend_s(const Pair& pair, double x_m, double y_m, double step, double share) const noexcept {
+        if (origin_[pair.from] == origin_[pair.beside]) return 0.0;  // the straight way is looked at when the cell is taken
         const Slowness &p = slowness_[pair.from], &q = slowness_[pair.beside];
         const double first = p.x * x_m + p.y * y_m - step, second = q.x * x_m + q.y * y_m - step;
         if (first * second >= 0.0) return 0.0;  // no arc: the slownesses do not belong to one front
@@ -257,6 +293,7 @@ private:
     std::vector<double> time_s_;
     std::vector<Slowness> slowness_;
     std::vector<std::uint8_t> burnt_;
+    std::vector<Place> parent_, origin_;  ///< whence the last ray to a cell came; where the straight way to it begins
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 

@@ -13,9 +13,6 @@ struct Seed {
     double col = 0.0, row = 0.0, time_s = 0.0;
 };
 
-/// Shapes of the fire in all cells that hold from one time to the next.
-using FireShapes = std::vector<FireShape>;
-
 struct Propagation {
     MapGrid grid;
     std::vector<Seed> seeds;
@@ -34,9 +31,11 @@ struct Arrival {
 
 /// The first arrival of the fire at each cell: the least time over all paths from the seeds, by an ordered front (Dijkstra's order)
 /// that reaches a cell over straight rays from anywhere between two burnt cells of a ring of 32 neighbours, with arrival times
-/// interpolated by cubics from times and slownesses (semi-Lagrangian; Sethian and Vladimirsky 2003, with Hermite interpolation). A
-/// cell that turns out to be reached earlier is taken up again, so that long thin ellipses need no wider ring. The ray takes the mean
-/// time of the cells it crosses and does not cross cells without fire, nor the corner between two of them. Runs on one thread; the
+/// interpolated by cubics from times and slownesses (semi-Lagrangian; Sethian and Vladimirsky 2003, with Hermite interpolation). A cell that
+/// is taken also sees whether the fire comes earlier straight from where the ray to its parent began (up to 100 cells away; as Theta*,
+/// Nash, Daniel, Koenig and Felner 2007, straightens paths on grids), which on even ground is the exact way from the seed whatever the
+/// shape. A cell that turns out to be reached earlier is taken up again. Rays take the time of each cell for the part that they cross and
+/// do not cross cells without fire, nor the corner between two of them. Runs on one thread; the
 /// result is the same everywhere.
 Arrival propagate(const Propagation& job);
 

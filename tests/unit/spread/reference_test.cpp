@@ -62,7 +62,7 @@ TEST(ReferenceFire, AIsTheExactEllipse) {
             const double expected = exact.at(row, col);
             if (std::hypot(grid.x_centre_m(col) - 499010.0, grid.y_centre_m(row) - 4000010.0) < 100.0) continue;
             if (std::isnan(expected) || expected > 1490.0) continue;
-            EXPECT_NEAR(fire.arrival_time_s.at(row, col) / expected, 1.0, 0.012) << row << ' ' << col;
+            EXPECT_NEAR(fire.arrival_time_s.at(row, col) / expected, 1.0, 0.0005) << row << ' ' << col;
             ++compared;
         }
     EXPECT_GT(compared, 900);
