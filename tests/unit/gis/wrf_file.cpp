@@ -117,6 +117,28 @@ void WrfTestFile::write(const std::filesystem::path& path) const {
             }
     if (wanted("XLONG")) write_floats(*root, "XLONG", {time, y, x}, lon);
     if (wanted("XLAT")) write_floats(*root, "XLAT", {time, y, x}, lat);
+    for (const auto& [name, scale] : {std::pair{"FGRNQFX", latent_heat}, {"FMC_G", 0.0}}) {
+        if (!wanted(name)) continue;
+        std::vector<float> values;
+        for (int t = 0; t < records; ++t)
+            for (int r = 0; r < fine_rows; ++r)
+                for (int c = 0; c < fine_cols; ++c)
+                    values.push_back(static_cast<float>(scale > 0.0 ? scale * fire_value("FGRNHFX", t, c, r) : 0.08));
+        write_floats(*root, name, {time, fy, fx}, values);
+    }
+    if (wanted("GRNHFX")) {
+        std::vector<float> values;
+        for (int t = 0; t < records; ++t)
+            for (int r = 0; r < rows; ++r)
+                for (int c = 0; c < cols; ++c) {
+                    double sum = 0.0;
+                    for (int j = 0; j < refine_y; ++j)
+                        for (int i = 0; i < refine_x; ++i)
+                            sum += fire_value("FGRNHFX", t, c * refine_x + i, r * refine_y + j);
+                    values.push_back(static_cast<float>(coarse_heat * sum / (refine_x * refine_y)));
+                }
+        write_floats(*root, "GRNHFX", {time, y, x}, values);
+    }
     const auto z = dimension("bottom_top", layers), zs = dimension("bottom_top_stag", layers + 1);
     const auto ys = dimension("south_north_stag", rows + 1), xs = dimension("west_east_stag", cols + 1);
     for (const auto& [name, dimensions] : {std::pair<const char*, Dimensions>{"RTHFRTEN", {time, z, y, x}},

@@ -20,6 +20,8 @@ struct WrfTestFile {
     std::string format = "NC4";                  ///< NC: classic
     std::map<std::string, double> attributes{};  ///< instead of those above; NaN = left out
     std::vector<std::string> left_out{};         ///< variables
+    double coarse_heat = 1.0;                    ///< GRNHFX / area mean of FGRNHFX
+    double latent_heat = 0.0918;                 ///< FGRNQFX / FGRNHFX; FMC_G is 0.08
     double longitude_error_deg = 0.0;            ///< added to XLONG of one cell
 
     /// Value of a variable of the fire grid: record, column from the west, row from the SOUTH.
