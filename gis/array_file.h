@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -14,6 +15,26 @@
 namespace pyroscene::gis {
 
 enum class SampleType { UInt8, Int16, UInt16, Int32, Float32, Float64 };
+
+/// Calls `f` with a value of the C++ type.
+template <class F>
+auto with_sample(SampleType type, const F& f) {
+    switch (type) {
+        case SampleType::UInt8:
+            return f(std::uint8_t{});
+        case SampleType::Int16:
+            return f(std::int16_t{});
+        case SampleType::UInt16:
+            return f(std::uint16_t{});
+        case SampleType::Int32:
+            return f(std::int32_t{});
+        case SampleType::Float32:
+            return f(float{});
+        case SampleType::Float64:
+            break;
+    }
+    return f(double{});
+}
 
 /// Numbers of one type.
 struct Numbers {
@@ -46,6 +67,14 @@ struct ArrayFile {
 struct ArrayPart {
     std::vector<std::size_t> start, count;
     std::span<const double> values;
+
+    /// The values as they are stored.
+    template <class Sample>
+    [[nodiscard]] std::vector<Sample> as() const {
+        std::vector<Sample> typed(values.size());
+        for (std::size_t i = 0; i < typed.size(); ++i) typed[i] = static_cast<Sample>(values[i]);
+        return typed;
+    }
 };
 
 /// Extent of a variable along its dimensions. Throws a runtime error with `subject` for a dimension that the file does not know.

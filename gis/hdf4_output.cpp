@@ -1,7 +1,7 @@
 #include "gis/hdf4_output.h"
 
-#include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <hdf/mfhdf.h>
@@ -15,21 +15,16 @@ namespace {
 /// Calls `f` with a value of the C++ type and HDF4's number of it.
 template <class F>
 auto with_type(SampleType type, const F& f) {
-    switch (type) {
-        case SampleType::UInt8:
-            return f(std::uint8_t{}, DFNT_UINT8);
-        case SampleType::Int16:
-            return f(std::int16_t{}, DFNT_INT16);
-        case SampleType::UInt16:
-            return f(std::uint16_t{}, DFNT_UINT16);
-        case SampleType::Int32:
-            return f(std::int32_t{}, DFNT_INT32);
-        case SampleType::Float32:
-            return f(float{}, DFNT_FLOAT32);
-        case SampleType::Float64:
-            break;
-    }
-    return f(double{}, DFNT_FLOAT64);
+    return with_sample(type, [&](auto sample) {
+        using Sample = decltype(sample);
+        constexpr ::int32 kNumber = std::is_same_v<Sample, std::uint8_t>    ? DFNT_UINT8
+                                    : std::is_same_v<Sample, std::int16_t>  ? DFNT_INT16
+                                    : std::is_same_v<Sample, std::uint16_t> ? DFNT_UINT16
+                                    : std::is_same_v<Sample, std::int32_t>  ? DFNT_INT32
+                                    : std::is_same_v<Sample, float>         ? DFNT_FLOAT32
+                                                                            : DFNT_FLOAT64;
+        return f(sample, kNumber);
+    });
 }
 
 void require(bool done, const std::string& subject, const std::string& what) {
@@ -90,9 +85,7 @@ void write_variable(::int32 file_id, const ArrayFile& file, const ArrayVariable&
         for (const auto& [key, value] : v.attributes) done = done && set_attribute(set.id, key, value);
         for_each_part(file, v, subject, [&](const ArrayPart& part) {
             std::vector<::int32> start(part.start.begin(), part.start.end()), count(part.count.begin(), part.count.end());
-            std::vector<Sample> typed(part.values.size());
-            std::transform(part.values.begin(), part.values.end(), typed.begin(),
-                           [](double value) { return static_cast<Sample>(value); });
+            auto typed = part.as<Sample>();
             done = done && SDwritedata(set.id, start.data(), nullptr, count.data(), typed.data()) != FAIL;
         });
         require(done, subject, v.name);

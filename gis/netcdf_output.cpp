@@ -76,9 +76,12 @@ void write_variable(Groups& groups, const Dimensions& dimensions, const ArrayFil
     for (const auto& [key, value] : v.attributes) set_attribute(*array, key, value);
     for_each_part(file, v, subject, [&](const ArrayPart& part) {
         const std::vector<GUInt64> start(part.start.begin(), part.start.end());
-        if (!array->Write(start.data(), part.count.data(), nullptr, nullptr, GDALExtendedDataType::Create(GDT_Float64),
-                          part.values.data()))
-            throw runtime_error(subject, fmt::format("variable {}: {}", v.name, errors.message()));
+        // In the type of the array: what GDAL has to convert it writes value by value.
+        const bool done = with_sample(v.type, [&](auto sample) {
+            const auto typed = part.as<decltype(sample)>();
+            return array->Write(start.data(), part.count.data(), nullptr, nullptr, type, typed.data());
+        });
+        if (!done) throw runtime_error(subject, fmt::format("variable {}: {}", v.name, errors.message()));
     });
 }
 

@@ -7,7 +7,9 @@ namespace pyroscene::pipeline {
 /// Writes the image as the users of the instrument know it (docs/outputs.md, "Native forms") into the folder `native` of the
 /// acquisition, by the `native_form` of the sensor file; warns when it has none.
 /// \param lookup  of the map the ortho products lie on
-void write_native(const ProductJob& job, const RenderedImage& image, const analysis::OrthoLookup& lookup, RunReport& report);
+/// \return the files written
+std::vector<std::filesystem::path> write_native(const ProductJob& job, const RenderedImage& image,
+                                                const analysis::OrthoLookup& lookup, RunReport& report);
 
 /// What each form needs.
 struct NativeJob {
@@ -16,7 +18,10 @@ struct NativeJob {
     const analysis::OrthoLookup& lookup;
     RunReport& report;
     std::filesystem::path folder;
+    std::vector<std::filesystem::path>& written;
 
+    /// A file of the form, by its name.
+    [[nodiscard]] std::filesystem::path file(const std::string& name) const { return written.emplace_back(folder / name); }
     [[nodiscard]] double unix_s() const { return job.scenario.start.unix_s + job.acquisition.time_s; }
     [[nodiscard]] const sensors::Band& band(std::size_t k) const {
         return job.sensor.bands[static_cast<std::size_t>(job.bands[k])];

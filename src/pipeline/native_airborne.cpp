@@ -29,7 +29,7 @@ gis::OutputRaster raster_of(const NativeJob& job) {
 }
 
 std::filesystem::path file_of(const NativeJob& job, const char* what) {
-    return job.folder / (job.job.acquisition.id + job.job.files.suffix + what);
+    return job.file(job.job.acquisition.id + job.job.files.suffix + what);
 }
 
 /// Image and ground points of the exact camera, over the image and the heights of the scene (with a tenth to spare).

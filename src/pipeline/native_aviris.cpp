@@ -45,6 +45,12 @@ gis::EnviHeader cube_header(const NativeJob& job, const std::string& what, doubl
     return h;
 }
 
+/// A cube, which has its header beside it.
+std::filesystem::path cube_file(const NativeJob& job, const std::string& name) {
+    (void)job.file(name + ".hdr");
+    return job.file(name);
+}
+
 gis::EnviHeader on_grid(gis::EnviHeader h, const MapGrid& grid) {
     h.samples = grid.cols;
     h.lines = grid.rows;
@@ -69,7 +75,7 @@ void write_cubes(const NativeJob& job, const std::string& stem, T fill, const Co
     const std::size_t bands = job.job.bands.size(), samples = static_cast<std::size_t>(r.samples);
     const std::string what = std::is_same_v<T, float> ? "radiance, uW cm-2 nm-1 sr-1" : "radiance, uW cm-2 nm-1 sr-1 x gain";
     const auto h = cube_header(job, what, fill);
-    const auto cube = job.folder / (stem + "_img");
+    const auto cube = cube_file(job, stem + "_img");
     const int most = gis::rows_of_part(samples * bands, r.lines);
     int first = 0, read = 0;  // lines in memory
     std::vector<float> radiance;
@@ -88,7 +94,7 @@ void write_cubes(const NativeJob& job, const std::string& stem, T fill, const Co
         }
     });
     const MapGrid& grid = job.lookup.grid;
-    gis::write_envi_rearranged<T>(job.folder / (stem + "_ort_img"), on_grid(h, grid), cube, fill,
+    gis::write_envi_rearranged<T>(cube_file(job, stem + "_ort_img"), on_grid(h, grid), cube, fill,
                                   [&](int row, int col) { return source_pixel(job, grid.index(row, col)); });
 }
 
@@ -96,7 +102,7 @@ void write_gains(const NativeJob& job, const std::string& stem) {
     std::string text;
     for (const int b : job.job.bands)
         text += fmt::format("{:14.6f} {:6d}\n", job.job.sensor.native_gain[static_cast<std::size_t>(b)], b + 1);
-    write_text_file(job.folder / (stem + ".gain"), text);
+    write_text_file(job.file(stem + ".gain"), text);
 }
 
 void write_input_geometry(const NativeJob& job, const std::string& stem) {
@@ -106,7 +112,7 @@ void write_input_geometry(const NativeJob& job, const std::string& stem) {
                     "ellipsoid in m",
                     {"Easting", "Northing", "Elevation"});
     h.ignore_value = kNoValue;
-    gis::write_envi<double>(job.folder / (stem + "_ort_igm"), h, [&](int line, std::span<double> out) {
+    gis::write_envi<double>(cube_file(job, stem + "_ort_igm"), h, [&](int line, std::span<double> out) {
         for (int s = 0; s < r.samples; ++s) {
             const auto i =
                 static_cast<std::size_t>(line) * static_cast<std::size_t>(r.samples) + static_cast<std::size_t>(s);
@@ -123,7 +129,7 @@ void write_lookup_table(const NativeJob& job, const std::string& stem) {
     const auto& r = job.image;
     const MapGrid& grid = job.lookup.grid;
     const auto h = on_grid(header(job, "geometry look-up table", {"GLT Sample Lookup", "GLT Line Lookup"}), grid);
-    gis::write_envi<std::int32_t>(job.folder / (stem + "_ort_glt"), h, [&](int row, std::span<std::int32_t> out) {
+    gis::write_envi<std::int32_t>(cube_file(job, stem + "_ort_glt"), h, [&](int row, std::span<std::int32_t> out) {
         for (int col = 0; col < grid.cols; ++col) {
             const auto found = source_pixel(job, grid.index(row, col));
             auto* to = &out[2 * static_cast<std::size_t>(col)];
@@ -171,7 +177,7 @@ void write_observation(const NativeJob& job, const std::string& stem) {
                 "Earth-sun distance (AU)"});
     h.ignore_value = kNoValue;
     const double start_of_day_s = std::floor(job.unix_s() / 86400.0) * 86400.0;
-    gis::write_envi<double>(job.folder / (stem + "_obs"), h, [&](int line, std::span<double> out) {
+    gis::write_envi<double>(cube_file(job, stem + "_obs"), h, [&](int line, std::span<double> out) {
         constexpr std::size_t kPlanes = 11;
         for (int s = 0; s < r.samples; ++s) {
             const auto i =

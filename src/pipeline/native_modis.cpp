@@ -179,8 +179,7 @@ void write_file(const NativeJob& job, const std::string& product, gis::ArrayFile
                        {"title", "synthetic image by Pyroscene, scenario " + job.job.scenario.name}};
     const double start = time_span_s(job)[0];
     gis::write_hdf4(
-        job.folder / fmt::format("{}.A{}.061.{}.hdf", short_name, granule_time(start), granule_time_with_seconds(start)),
-        file);
+        job.file(fmt::format("{}.A{}.061.{}.hdf", short_name, granule_time(start), granule_time_with_seconds(start))), file);
 }
 
 void write_geolocation(const NativeJob& job, const Swath& swath, const char* frames) {

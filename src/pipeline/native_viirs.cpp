@@ -66,8 +66,7 @@ gis::ArrayFile file_of(const NativeJob& job, const Swath& swath, const std::stri
 void write_file(const NativeJob& job, const std::string& short_name, const gis::ArrayFile& file) {
     const double start = time_span_s(job)[0];
     gis::write_netcdf(
-        job.folder / fmt::format("{}.A{}.002.{}.nc", short_name, granule_time(start), granule_time_with_seconds(start)),
-        file);
+        job.file(fmt::format("{}.A{}.002.{}.nc", short_name, granule_time(start), granule_time_with_seconds(start))), file);
 }
 
 /// Pixels that the instrument does not send get a code of their own.

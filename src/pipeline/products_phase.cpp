@@ -250,8 +250,10 @@ std::vector<std::array<double, 2>> footprint(const RenderedImage& r) {
     return ring;
 }
 
-StacImage stac_image(const ProductJob& job, const RenderedImage& r, const MapGrid& grid) {
+StacImage stac_image(const ProductJob& job, const RenderedImage& r, const MapGrid& grid,
+                     std::vector<std::filesystem::path> native) {
     StacImage image;
+    image.assets = std::move(native);
     image.footprint_lon_lat = footprint(r);
     image.gsd_m = std::round(r.gsd_m * 100.0) / 100.0;
     image.ortho_grid = grid;
@@ -310,9 +312,10 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
         write_fire_pixels(job, r);
         write_vectors(job, options.output);
     }
+    std::vector<std::filesystem::path> native;
     if (wanted.native && lookup) {
         timer.emplace(report, "products/native");
-        write_native(job, r, *lookup, report);
+        native = write_native(job, r, *lookup, report);
     }
     stage(0.9);
     timer.emplace(report, "products/quicklook");
@@ -320,7 +323,7 @@ bool make_products(const ProductJob& job, const RunOptions& options, RunReport& 
         write_spectrum(job, r, brightness);
     else if (wanted.quicklook)
         write_picture(job, r, brightness);
-    write_stac_item(job, stac_image(job, r, grid));
+    write_stac_item(job, stac_image(job, r, grid, std::move(native)));
     report.count("products/" + job.acquisition.id, 1);
     stage(1.0);
     return true;

@@ -36,10 +36,29 @@ Json eo_bands(const ProductJob& job) {
     return bands;
 }
 
+bool is_native(const std::filesystem::path& file) { return file.parent_path().filename() == "native"; }
+
+std::string native_type(const std::string& name, const std::string& extension) {
+    if (extension == ".tif")
+        return name.find("orthomosaic") == std::string::npos ? "image/tiff; application=geotiff"
+                                                             : "image/tiff; application=geotiff; profile=cloud-optimized";
+    return extension == ".hdf"    ? "application/x-hdf"
+           : extension == ".nc"   ? "application/x-netcdf"
+           : extension == ".json" ? "application/json"
+           : extension == ".csv"  ? "text/csv"
+           : extension.empty()    ? "application/octet-stream"
+                                  : "text/plain";  // headers and gains of ENVI cubes
+}
+
 Json asset(const ProductJob& job, const std::filesystem::path& file) {
     const auto name = file.filename().string(), extension = file.extension().string();
     const bool ortho = name.starts_with("ortho_");
-    Json a = {{"href", "./" + name}};
+    Json a = {{"href", "./" + file.lexically_relative(job.files.folder).generic_string()}};
+    if (is_native(file)) {
+        a["type"] = native_type(name, extension);
+        a["roles"] = Json::array({"data", "native"});
+        return a;
+    }
     if (extension == ".tif") {
         a["type"] = ortho ? "image/tiff; application=geotiff; profile=cloud-optimized" : "image/tiff; application=geotiff";
         a["roles"] = Json::array({name.starts_with("geolocation") || name.starts_with("truth") ? "metadata" : "data"});
@@ -67,6 +86,7 @@ Json asset(const ProductJob& job, const std::filesystem::path& file) {
 
 /// Name of an asset: that of its file, with what it is where several files share a name.
 std::string asset_key(const std::filesystem::path& file) {
+    if (is_native(file)) return "native_" + file.filename().string();
     const auto extension = file.extension().string();
     if (extension == ".qml") return file.stem().string() + "_style";
     return file.stem().string() + (extension == ".kmz" ? "_kmz" : "");

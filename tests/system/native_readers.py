@@ -212,16 +212,19 @@ def frame(folder, stem, dem):
     require(np.allclose(turn, o["rotation_map_to_camera"], atol=1e-9), "omega, phi, kappa do not give the rotation")
 
 
-def geoloc(folder):
-    """gdalwarp -geoloc of the image in sensor geometry lands on the ortho image."""
+def geoloc(folder, suffix="", most=0.25):
+    """gdalwarp -geoloc of the image in sensor geometry lands on the ortho image, to so many of its cells."""
     try:
         from osgeo import gdal  # noqa: F401
     except ImportError:
         sys.exit(ABSENT)
-    image, reference = warped(os.path.join(folder, "radiance.tif"), os.path.join(folder, "ortho_radiance.tif"), 1,
-                              {"geoloc": True})
+    image, reference = warped(os.path.join(folder, f"radiance{suffix}.tif"), os.path.join(folder, f"ortho_radiance{suffix}.tif"),
+                              1, {"geoloc": True})
     shift = shift_px(image, reference)
-    require(np.abs(shift).max() < 0.25, f"gdalwarp -geoloc lands {shift} cells off")
+    require(np.abs(shift).max() < float(most), f"gdalwarp -geoloc lands {shift} cells off")
+    both = np.isfinite(image) & np.isfinite(reference)
+    likeness = np.corrcoef(image[both], reference[both])[0, 1]
+    require(likeness > 0.9, f"gdalwarp -geoloc gives another picture (correlation {likeness})")
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gis/crs.h"
 #include "system/support.h"
 
 namespace pyroscene::test {
@@ -38,12 +39,27 @@ void read_by(const std::string& arguments) {
     EXPECT_EQ(read.exit_code, 0) << read.output;
 }
 
+/// Every native file is linked in the STAC item of its image.
+void expect_linked(const std::filesystem::path& acquisition) {
+    std::string items;
+    for (const auto& entry : std::filesystem::directory_iterator(acquisition))
+        if (entry.path().filename().string().starts_with("item")) items += file_bytes(entry.path());
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(acquisition / "native")) {
+        ++files;
+        const auto link = "\"href\": \"./native/" + entry.path().filename().string() + "\"";
+        EXPECT_NE(items.find(link), std::string::npos) << link;
+    }
+    EXPECT_GT(files, 1);
+}
+
 TEST(NativeForms, AvirisCubeOpensInSpectralPython) {
     const ScratchFolder scratch;
     run_native(scratch, R"(  - {id: line, sensor: aviris-classic, time_s: 120, bands: ['30', '120', '200'],
      platform: {over: centre, altitude_agl_m: 4000, heading_deg: 30, ground_speed_m_s: 41}}
 )");
     if (HasFatalFailure()) return;
+    expect_linked(scratch / "out/line");
     read_by("aviris " + (scratch / "out/line").string() + " line_rdn");
 }
 
@@ -54,6 +70,7 @@ TEST(NativeForms, ViirsFilesOpenInSatpy) {
 )",
                "lolo_peak");
     if (HasFatalFailure()) return;
+    expect_linked(scratch / "out/pass");
     read_by("viirs " + (scratch / "out/pass").string());
 }
 
@@ -88,9 +105,34 @@ TEST(NativeForms, SwathsLandOnTheirOrthoImagesByGdalwarp) {
     if (HasFatalFailure()) return;
     read_by("geoloc " + (scratch / "out/whisk").string());
     read_by("geoloc " + (scratch / "out/push").string());
+    expect_linked(scratch / "out/whisk");
     EXPECT_TRUE(std::filesystem::exists(scratch / "out/whisk/native/whisk_orthomosaic.tif"));
     const auto lines = file_bytes(scratch / "out/whisk/native/whisk_lines.csv");
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), gis::read_image(scratch / "out/whisk/radiance.tif").rows + 1);
+}
+
+/// Sunlit hills of some pixels over 45 km, seen aslant: scans overlap and pixels grow.
+TEST(NativeForms, SatelliteSwathsLandOnTheirOrthoImagesByGdalwarp) {
+    const ScratchFolder scratch;
+    MapGrid grid{300, 300, 650000.0, 5210000.0, 150.0, gis::parse_map_crs("EPSG:32611", "map").wkt};
+    write_band(scratch / "dem.tif", grid, "m", [](double x, double y) {
+        return 1200.0 + 500.0 * std::sin(x / 1900.0) * std::cos(y / 2300.0) + 300.0 * std::sin((x + y) / 3100.0);
+    });
+    write_band(scratch / "heat_flux.tif", grid, "W m-2", [](double, double) { return 0.0; }, {{"time_s", "0"}});
+    std::ofstream(scratch / "scenario.yaml") << R"(pyroscene: 1
+name: swaths
+inputs: {terrain: {file: dem.tif}, heat_flux: {file: heat_flux.tif}}
+start: 2017-07-15T16:00:00Z
+render: {noise: false}
+acquisitions:
+  - {id: modis, sensor: modis-terra, time_s: 0, bands: [B17], platform: {over: centre, pass: descending, scan_angle_deg: 35}}
+  - {id: viirs, sensor: viirs-snpp, time_s: 0, bands: [M11], platform: {over: centre, pass: ascending, scan_angle_deg: -20}}
+products: [radiance, ortho]
+)";
+    const auto done = pyroscene_cli("run " + (scratch / "scenario.yaml").string() + " -q -o " + (scratch / "out").string());
+    ASSERT_EQ(done.exit_code, 0) << done.output;
+    read_by("geoloc " + (scratch / "out/modis").string() + " '' 1");
+    read_by("geoloc " + (scratch / "out/viirs").string() + " '' 1");
 }
 
 /// Two crossing lines: each cell of the mosaic is one of the two ortho images where both have the mosaic's cells.

@@ -43,7 +43,7 @@ TEST(SensorsCommand, PixelsHaveTheSizeThatTheirAnglesGive) {
     }
     EXPECT_EQ(nadir, 3);
     EXPECT_EQ(edge, 6);
-    EXPECT_EQ(images, 6);
+    EXPECT_EQ(images, 8);
 }
 
 TEST(SensorsCommand, OutlinesHoldTheirPixels) {

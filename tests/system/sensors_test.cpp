@@ -184,5 +184,76 @@ acquisitions:
     for (const double p : power) EXPECT_NEAR(p / power.front(), 1.0, 0.01);
 }
 
+/// A sensor of today or of the thesis, its band for fire and where it flies.
+struct Eye {
+    const char *sensor, *band, *platform;
+};
+constexpr Eye kSeven[] = {
+    {"aviris-classic", "223", "{over: centre, altitude_agl_m: 20000, heading_deg: 70}, lines: 110"},
+    {"master", "30", "{over: centre, altitude_agl_m: 5000, heading_deg: 200, ground_speed_m_s: 120}, lines: 170"},
+    {"modis-terra", "B21", "{over: centre, pass: descending, scan_angle_deg: 4}"},
+    {"viirs-snpp", "M13", "{over: centre, pass: ascending, scan_angle_deg: -3}"},
+    {"abi-goes16", "B07", "{pass: geostationary}"},
+    {"wasp", "MWIR", "{over: centre, altitude_agl_m: 4500, heading_deg: 20}"},
+    {"phoenix", "MWIR", "{over: centre, altitude_agl_m: 3000, heading_deg: 160}, lines: 300"},
+};
+
+/// Between a background and a front of known temperatures, power above background / (B(front) - B(background)) is the area that
+/// flames, whatever the pixel and the band. It is known from the inputs: heat flux over that of flaming ground. The fire is large
+/// enough for the rays of fine pixels, and the map for the response of a geostationary one.
+TEST(OneFire, HasTheSameAreaInSevenSensors) {
+    const ScratchFolder folder;
+    const auto grid = square_map(9000.0, 20.0);
+    const auto flux = [](double x, double y) {
+        const double radius = std::hypot(x - 704500.0, y - 5179500.0);
+        return radius > 560.0 && radius < 640.0 && x > 704000.0 ? 120000.0 + 100.0 * (y - 5179500.0) : 0.0;
+    };
+    write_band(folder / "dem.tif", grid, "m", [](double, double) { return 900.0; });
+    write_band(folder / "flux.tif", grid, "W m-2", flux, {{"time_s", "0"}});
+    std::string acquisitions;
+    for (const auto& eye : kSeven)
+        acquisitions += fmt::format("  - {{id: {0}, sensor: {0}, time_s: 0, platform: {1}, bands: [\"{2}\"]}}\n", eye.sensor,
+                                    eye.platform, eye.band);
+    run_in(folder, R"(pyroscene: 1
+name: seven
+inputs: {terrain: {file: dem.tif}, heat_flux: {file: flux.tif}}
+start: 2021-08-12T18:00:00Z
+atmosphere: {model: none}
+surface: {emissivity: 1}
+flame: {enabled: false}
+fire: {ambient_temperature_K: 300, front_temperature_K: 1073.15}
+render: {noise: false, sun: false}
+products: [radiance, truth, frp]
+acquisitions:
+)" + acquisitions);
+    constexpr double kFlaming_W_m2 = 5e5, kLeast_W_m2 = 1000.0, kFront_K = 1073.15, kAmbient_K = 300.0;
+    double flaming_m2 = 0.0;
+    for (int row = 0; row < grid.rows; ++row)
+        for (int col = 0; col < grid.cols; ++col)
+            if (const double f = flux(grid.x_centre_m(col), grid.y_centre_m(row)); f > kLeast_W_m2)
+                flaming_m2 += f / kFlaming_W_m2 * grid.cell_area_m2();
+    for (const auto& eye : kSeven) {
+        const auto sensor = sensors::load_sensor(eye.sensor);
+        const auto& band = sensor.bands[static_cast<std::size_t>(sensor.band_index(eye.band))];
+        const auto folder_of = folder / "out" / eye.sensor;
+        std::filesystem::path truth_file, frp_file;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_of)) {
+            const auto name = entry.path().filename().string();
+            if (name.starts_with("truth") && name.ends_with(".tif")) truth_file = entry.path();
+            if (name.starts_with("frp") && name.ends_with(".tif")) frp_file = entry.path();
+        }
+        const auto truth = gis::read_image(truth_file), frp = gis::read_image(frp_file);
+        std::size_t noise_free = 0;
+        while (!truth.bands[noise_free].description.ends_with("radiance_noise_free")) ++noise_free;
+        const auto radiance = plane(truth, noise_free), exitance = plane(frp, 0), power_MW = plane(frp, 1);
+        const double background = radiometry::band_mean_radiance(kAmbient_K, band.response);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < radiance.size(); ++i)
+            if (exitance[i] > 0.0) sum += (radiance[i] - background) * 1e6 * power_MW[i] / exitance[i];  // x area
+        const double area_m2 = sum / (radiometry::band_mean_radiance(kFront_K, band.response) - background);
+        EXPECT_NEAR(area_m2 / flaming_m2, 1.0, 0.01) << eye.sensor;
+    }
+}
+
 }  // namespace
 }  // namespace pyroscene::test
