@@ -113,10 +113,10 @@ namespace {
 
 constexpr std::size_t kLabelLength = 30;
 
-std::size_t values_of(const std::int32_t* box) {
-    std::size_t count = 1;
-    for (int axis = 0; axis < 3; ++axis) count *= static_cast<std::size_t>(box[2 * axis + 1] - box[2 * axis] + 1);
-    return count;
+/// \param box  first and last index along x, y and z
+std::size_t values_of(const std::vector<std::int32_t>& box) {
+    const auto length = [&](std::size_t first) { return static_cast<std::size_t>(box[first + 1] - box[first] + 1); };
+    return length(0) * length(2) * length(4);
 }
 
 std::vector<FdsPatch> last_moment(FortranRecords& records, const std::vector<std::vector<std::int32_t>>& boxes,
@@ -127,7 +127,7 @@ std::vector<FdsPatch> last_moment(FortranRecords& records, const std::vector<std
         patches.clear();
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             const auto& b = boxes[i];
-            auto values = records.floats(values_of(b.data()));
+            auto values = records.floats(values_of(b));
             if (wanted[i]) patches.push_back({b[0], b[1], b[2], b[3], std::move(values)});
         }
     }

@@ -96,6 +96,7 @@ ArrivalModelSource read_arrival_model(const config::Node& node, const fs::path& 
         return source;
     }
     std::vector<std::string> names;
+    names.reserve(kModels.size());
     for (const auto& model : kModels) names.emplace_back(model.name);
     (void)node.required_child("model");
     source.model = node.choice("model", "other", names);

@@ -130,9 +130,8 @@ private:
         const Place parent = parent_[cell], ancestor = parent < 0 ? parent : origin_[static_cast<std::size_t>(parent)];
         origin_[cell] = parent;
         if (ancestor == parent) return;
-        const Seed from = place(ancestor);
-        const double dx = static_cast<double>(cell % static_cast<std::size_t>(grid_.cols)) + 0.5 - from.col,
-                     dy = static_cast<double>(cell / static_cast<std::size_t>(grid_.cols)) + 0.5 - from.row;
+        const Seed from = place(ancestor), here = place(static_cast<Place>(cell));
+        const double dx = here.col - from.col, dy = here.row - from.row;
         if (dx * dx + dy * dy > kLongest * kLongest || !periods_.knows(from.time_s)) return;
         const auto end = ray_end(from.time_s, [&](const FireShapes& shapes) {
             return straight_ray_s(grid_, shapes, {from.col, from.row}, dx, dy);
@@ -146,8 +145,8 @@ private:
     /// Where and when a ray may begin: the centre of a cell, or the seed - 1 - place.
     [[nodiscard]] Seed place(Place at) const noexcept {
         if (at < 0) return job_.seeds[static_cast<std::size_t>(-1 - at)];
-        return {static_cast<double>(at % grid_.cols) + 0.5, static_cast<double>(at / grid_.cols) + 0.5,
-                time_s_[static_cast<std::size_t>(at)]};
+        const int row = at / grid_.cols, col = at % grid_.cols;
+        return {col + 0.5, row + 0.5, time_s_[static_cast<std::size_t>(at)]};
     }
 
     /// Straight rays to the cells around a seed.
