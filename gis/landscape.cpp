@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -22,7 +21,6 @@
 namespace pyroscene::gis {
 namespace {
 
-constexpr const char* kMemory = "/vsimem/";
 constexpr double kUsualNodata = -9999.0;
 constexpr int kFewestBands = 5, kMostBands = 8;
 
@@ -183,7 +181,7 @@ std::string slope_note(const std::filesystem::path& raster, bool says_percent) {
 Landscape open_landscape(const std::filesystem::path& file, const std::string& crs) {
     const std::string subject = file.string();
     Landscape land;
-    land.raster = fmt::format("{}landscape_{:016x}/landscape.vrt", kMemory, std::hash<std::string>{}(subject + "|" + crs));
+    land.raster = memory_name("landscape", subject + "|" + crs, "landscape", "vrt");
     bool slope_in_percent = false;
     {
         const auto source = open_raster(file);

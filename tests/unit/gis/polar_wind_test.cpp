@@ -53,6 +53,17 @@ TEST_F(PolarWindFiles, DirectionsSayWhereTheWindComesFrom) {
     EXPECT_TRUE(std::isnan(w.east_m_s.at(1, 1)));
 }
 
+TEST_F(PolarWindFiles, GeoTiffsReadTheSame) {
+    SourceRaster{.cols = 3, .rows = 2, .nodata = -9999.0}
+        .band([](int col, int) { return col == 0 ? -9999.0 : 36.0; })
+        .write(folder_ / "a_vel.tif");
+    SourceRaster{.cols = 3, .rows = 2}.band([](int, int) { return 180.0; }).write(folder_ / "a_ang.tif");
+    const auto w = read(wind_components({folder_ / "a_vel.tif", folder_ / "a_ang.tif", "km/h", "", true}));
+    EXPECT_TRUE(std::isnan(w.north_m_s.at(0, 0)));
+    EXPECT_NEAR(w.north_m_s.at(0, 2), 10.0, 1e-5);  // from the south
+    EXPECT_NEAR(w.east_m_s.at(1, 1), 0.0, 1e-5);
+}
+
 TEST_F(PolarWindFiles, TrueNorthIsTurnedToTheMap) {
     write("hill_vel", "10 10\n10 10\n");
     write("hill_ang", "360 360\n360 360\n");
