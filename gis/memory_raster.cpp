@@ -55,7 +55,7 @@ std::filesystem::path with_crs(const std::filesystem::path& file, const std::str
             throw input_error(file.string(), fmt::format("says '{}', but {} '{}'", own.name, key, crs));
         return file;
     }
-    const auto name = memory_name("crs", file.string() + "|" + crs, "raster", "vrt");
+    const auto name = memory_name("crs", file.string() + "|" + crs, file.stem().string(), "vrt");
     const GdalErrors errors;
     auto* driver = GetGDALDriverManager()->GetDriverByName("VRT");
     const DatasetPtr copy(driver->CreateCopy(name.c_str(), source.get(), FALSE, nullptr, nullptr, nullptr));

@@ -98,13 +98,20 @@ void check_rate(const Raster<float>& rate_m_s, const scenario::ArrivalModelSourc
 }  // namespace
 
 ModelledFire read_arrival_model(const scenario::Scenario& scenario, const MapGrid& grid) {
-    const auto source = with_rasters(*scenario.inputs.arrival_model);
+    const auto& given = *scenario.inputs.arrival_model;
+    const auto source = with_rasters(given);
     ModelledFire fire;
-    fire.ground.arrival_time_s = arrival_times_s(source, grid);
+    try {
+        fire.ground.arrival_time_s = arrival_times_s(source, grid);
+    } catch (const Error& e) {  // what is in memory has a name that says nothing
+        const auto& file = given.arrival.raster.files.front();
+        if (e.kind() != ErrorKind::Input || file == source.arrival.raster.files.front()) throw;
+        throw input_error(file.string(), fmt::format("as arrival times ({})", e.what()));
+    }
     fire.frames_s = source.frames.times_s;
     fire.mean_over_s = source.frames.mean_over_s;
     auto implied = fire::spread_rate_m_s(fire.ground.arrival_time_s, std::numeric_limits<double>::max());
-    check_rate(implied, source, fire.warnings);
+    check_rate(implied, given, fire.warnings);
     std::optional<Raster<float>> rate;
     if (source.spread_rate) {
         rate = read(*source.spread_rate, source.crs, "spread_rate", "m s-1", kAboveZero, grid);
