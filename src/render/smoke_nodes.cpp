@@ -163,10 +163,12 @@ void SmokeNodes::cut(std::span<const std::size_t> order, std::span<const double>
     const std::vector<double> by_extinction = falling_extinction(order);
     const std::span<const double> way = by_extinction.empty() ? curve : std::span<const double>(by_extinction);
     std::vector<std::array<double, kTrials>> wanted;
+    wanted.reserve(order.size());
     for (const std::size_t l : order) wanted.push_back(trials(optics_[l], optics_[order[order.size() / 2]]));
     for (std::size_t count = 1; count <= std::min(kNodes, order.size()); ++count) {
         const auto picked = pick(way, count);
         std::vector<double> places;
+        places.reserve(picked.size());
         for (const std::size_t i : picked) places.push_back(way[i]);
         std::vector<std::array<double, kNodes>> weights;
         bool good = true;
