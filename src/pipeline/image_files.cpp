@@ -59,6 +59,7 @@ gis::OutputRaster radiance_raster(const GroupJob& job) {
             meta.metadata["saturation_radiance"] = fmt::format("{:.6g}", *band.saturation_radiance_W_m2_sr_um);
         out.bands.push_back(std::move(meta));
     }
+    out.compression = gis::compression_of_image(out.bands.size());
     return out;
 }
 

@@ -86,6 +86,7 @@ Product radiance_product(const RenderedImage& r) {
 gis::OutputRaster raster_of(const ProductJob& job, const Product& product) {
     gis::OutputRaster out;
     out.bands = product.bands;
+    out.compression = gis::compression_of_image(out.bands.size());
     out.acquisition_time = UtcTime{job.scenario.start.unix_s + job.acquisition.time_s}.iso8601();
     out.metadata = {{"SCENARIO", job.scenario.name},
                     {"ACQUISITION", job.acquisition.id},
