@@ -103,7 +103,8 @@ TEST(Image, IsTheSameInLinesAndAtOnce) {
     const auto scene = test.scene();
     const auto request = nadir_request(70, 55);
     const auto whole = render::render_image(scene, nullptr, request);
-    render::ImageRenderer renderer(scene, nullptr, request, {});
+    const Monitor monitor;
+    render::ImageRenderer renderer(scene, nullptr, request, monitor);
     render::RadianceImage lines;  // used again and again, for fewer lines at the end
     const std::size_t n = whole.coverage.size();
     for (int first = 0; first < 55; first += 16) {
