@@ -84,17 +84,18 @@ products: [radiance, brightness_temperature]
 int main(int argc, char** argv) {
     try {
         const int edge = argc == 3 && std::string(argv[1]) == "--edge" ? std::atoi(argv[2]) : 3334;
-        std::string name = (fs::temp_directory_path() / "pyroscene_large_XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for the benchmark");
-        const fs::path folder = name;
+        const bench::TemporaryFolder scratch;
+        const fs::path& folder = scratch.path;
         (void)bench::measure([&] {
             write_scene(folder, edge);
             return std::vector<double>{};
         });
         const auto usage = bench::measure([&] {
             RunReport report;
-            pipeline::run(inputs::load_scenario(folder / "scenario.yaml"),
-                          {.output = folder / "out", .threads = 1, .on_progress = {}}, report);
+            pipeline::RunOptions options;
+            options.output = folder / "out";
+            options.threads = 1;
+            pipeline::run(inputs::load_scenario(folder / "scenario.yaml"), options, report);
             return std::vector<double>{};
         });
         const auto cells = static_cast<double>(edge) * edge;
@@ -103,7 +104,6 @@ int main(int argc, char** argv) {
             "cell) |  |  "
             "| 60 s | |\n",
             edge, usage.cpu_s, usage.peak_MB, usage.peak_MB * 1e6 / cells);
-        fs::remove_all(folder);
         return 0;
     } catch (const std::exception& e) {
         std::cerr << "bench_large_scene: " << e.what() << '\n';

@@ -9,8 +9,11 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 namespace pyroscene::bench {
 namespace {
@@ -50,6 +53,17 @@ Usage median_of(const std::vector<Usage>& runs) {
 }
 
 }  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "pyroscene_bench_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for the benchmark");
+    path = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+}
 
 Usage measure(const std::function<std::vector<double>()>& work, int threads) {
     std::array<int, 2> ends{};

@@ -1,9 +1,21 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <vector>
 
 namespace pyroscene::bench {
+
+/// A new folder that is removed at the end.
+struct TemporaryFolder {
+    /// Throws when none can be made.
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::filesystem::path path;
+};
 
 /// What a process used.
 struct Usage {

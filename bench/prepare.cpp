@@ -21,22 +21,6 @@ using namespace pyroscene;
 constexpr int kCells = 140;
 constexpr double kStep_s = 6.0;
 
-/// Folder that is removed at the end.
-struct Scratch {
-    Scratch() {
-        std::string name = (fs::temp_directory_path() / "pyroscene_prepare_XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for the benchmark");
-        path = name;
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    fs::path path;
-};
-
 /// A front that crosses the map from west to east in 830 frames, two to four cells deep, brighter where it is wavy.
 float heat_flux_W_m2(int row, int col, int frame) {
     const double front = 5.0 + 130.0 * frame / 830.0 + 6.0 * std::sin(row / 9.0);
@@ -97,7 +81,7 @@ bench::Usage prepare(const fs::path& folder, int frames) {
 
 int main() {
     try {
-        const Scratch scratch;
+        const bench::TemporaryFolder scratch;
         const auto tenth = prepare(scratch.path / "tenth", 83), whole = prepare(scratch.path / "whole", 830);
         std::cout << fmt::format(
             "| prepare, 830 frames of 140 x 140, 2 threads | {:.1f} s wall, {:.1f} s CPU, {:.0f} MB | 83 frames: {:.1f} s "

@@ -35,7 +35,6 @@ gis::OutputRaster raster(int cols, int rows, int bands) {
     out.rows = rows;
     for (int b = 0; b < bands; ++b) out.bands.push_back({fmt::format("band {}", b + 1), "W m-2 sr-1 um-1", {}, {}, {}});
     out.compression = gis::Compression::Zstd;
-    out.threads = 1;
     return out;
 }
 
@@ -227,10 +226,9 @@ void run(const fs::path& folder, int pairs) {
 int main(int argc, char** argv) {
     try {
         const int pairs = argc == 3 && std::string(argv[1]) == "--pairs" ? std::atoi(argv[2]) : 3;
-        std::string name = (fs::temp_directory_path() / "pyroscene_rasters_XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for the benchmark");
-        run(name, pairs);
-        fs::remove_all(name);
+        const bench::TemporaryFolder folder;
+        const gis::CompressionThreads limit(1);
+        run(folder.path, pairs);
         return 0;
     } catch (const std::exception& e) {
         std::cerr << "bench_rasters: " << e.what() << '\n';

@@ -147,9 +147,8 @@ std::vector<double> orfeo(const fs::path& folder) {
 int main(int argc, char** argv) {
     try {
         const int pairs = argc == 3 && std::string(argv[1]) == "--pairs" ? std::atoi(argv[2]) : 3;
-        std::string name = (fs::temp_directory_path() / "pyroscene_unmix_XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for the benchmark");
-        const fs::path folder = name;
+        const bench::TemporaryFolder scratch;
+        const fs::path& folder = scratch.path;
         // Written by a child: its arrays must not count as memory of the run.
         (void)bench::measure([&] {
             write_inputs(folder);
@@ -173,7 +172,6 @@ int main(int argc, char** argv) {
             peer ? fmt::format("Orfeo ToolBox ucls {:.2f} s CPU, {:.0f} MB", runs.second.cpu_s, runs.second.peak_MB)
                  : std::string("Orfeo ToolBox is not installed (otb-bin)"),
             peer ? fmt::format("{:.2f} x", runs.cpu_ratio) : std::string(), error, plain_error);
-        fs::remove_all(folder);
         return error <= plain_error ? 0 : 1;
     } catch (const std::exception& e) {
         std::cerr << "bench_unmix: " << e.what() << '\n';

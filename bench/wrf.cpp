@@ -2,8 +2,6 @@
 // fire cells), opens it as a scenario's input and reads terrain, arrival and every frame onto the map, in a process of its own. Prints one
 // row of the benchmark table. The heat read must be the heat written.
 //   bench_wrf [--records N]      default 62 records = 2 GB
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -155,23 +153,12 @@ double written_flux(int records) {
     return sum;
 }
 
-struct Folder {
-    fs::path path = fs::temp_directory_path() / fmt::format("bench_wrf_{}", ::getpid());
-    Folder() { fs::create_directories(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-};
-
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
         const int records = argc == 3 && std::strcmp(argv[1], "--records") == 0 ? std::stoi(argv[2]) : 62;
-        const Folder folder;
+        const bench::TemporaryFolder folder;
         const auto history = folder.path / "wrfout_d01_2020-07-01_18:00:00", scenario = folder.path / "scenario.yaml";
         bench::measure([&] {  // in a process of its own, so that this one stays small
             const History written(history, records);

@@ -52,8 +52,20 @@ struct OutputRaster {
     bool classes = false;                         ///< Byte, class names from `class_names`
     std::vector<std::string> class_names;
     Compression compression = Compression::Deflate;
-    int threads = 0;    ///< that compress; 0 = all cores. The file is the same for any number
     int tile_rows = 0;  ///< most rows of a tile, as TiffWriter takes its parts; 0 = by the number of bands
+};
+
+/// While it lives, writers compress with this many threads (0 = all cores, as without it). Files are the same for any number. Of
+/// the process: not for several threads at once.
+class CompressionThreads {
+public:
+    explicit CompressionThreads(int threads) noexcept;
+    ~CompressionThreads();
+    CompressionThreads(const CompressionThreads&) = delete;
+    CompressionThreads& operator=(const CompressionThreads&) = delete;
+
+private:
+    int before_;
 };
 
 /// Tiled, compressed GeoTIFF. `pixels` is [band][row][col]. Written under a temporary name and renamed; statistics included.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -97,7 +98,12 @@ void fill_tile(std::vector<Out>& tile, int tile_cols, std::span<const In> rows, 
     }
 }
 
+int compression_threads = 0;  // see CompressionThreads
+
 }  // namespace
+
+CompressionThreads::CompressionThreads(int threads) noexcept : before_(std::exchange(compression_threads, threads)) {}
+CompressionThreads::~CompressionThreads() { compression_threads = before_; }
 
 Options::~Options() { CSLDestroy(list_); }
 
@@ -107,7 +113,7 @@ Options& Options::set(const char* key, const std::string& value) {
 }
 
 void set_compression(Options& options, const OutputRaster& raster, const char* level_key) {
-    options.set("NUM_THREADS", raster.threads > 0 ? std::to_string(raster.threads) : std::string("ALL_CPUS"));
+    options.set("NUM_THREADS", compression_threads > 0 ? std::to_string(compression_threads) : std::string("ALL_CPUS"));
     if (raster.compression == Compression::None) return;
     options.set("COMPRESS", raster.compression == Compression::Zstd ? "ZSTD" : "DEFLATE").set(level_key, "1");
 }

@@ -80,13 +80,7 @@ void write_rasters(const DetectionScene& scene, const gis::ImageInfo& info, cons
 
 void write_hotspots(const DetectionScene& scene, const gis::ImageInfo& info, const Detection& found,
                     const std::vector<float>& power_MW) {
-    HotspotTable table;
-    const auto when = date_and_clock(metadata_item(info, "ACQUISITION_DATE"));
-    table.date = when.date;
-    table.clock = when.clock;
-    table.satellite = table.instrument = metadata_item(info, "SENSOR");
-    table.synthetic = info.metadata.contains("synthetic");
-    table.version = table.synthetic ? "synthetic" : "";
+    HotspotTable table = hotspots_of(info);
     table.viirs_names = scene.job.method == "viirs375";
     const auto value = [](const std::vector<float>& plane, std::size_t i) {
         return plane.empty() ? static_cast<double>(kNaN) : static_cast<double>(plane[i]);

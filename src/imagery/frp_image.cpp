@@ -129,12 +129,7 @@ std::filesystem::path beside(const FrpJob& job, const char* ending) {
 
 void write_tables(const Scene& s, const gis::ImageInfo& info, const Planes& planes, const std::vector<float>* tir_K,
                   const std::vector<FireCluster>& fires) {
-    HotspotTable table;
-    const auto when = date_and_clock(metadata_item(info, "ACQUISITION_DATE"));
-    table.date = when.date;
-    table.clock = when.clock;
-    table.satellite = table.instrument = metadata_item(info, "SENSOR");
-    table.version = info.metadata.contains("synthetic") ? "synthetic" : "";
+    HotspotTable table = hotspots_of(info);
     for (std::size_t i = 0; i < s.fire.size(); ++i) {
         if (s.fire[i] == 0 || !std::isfinite(planes.frp_MW[i])) continue;
         Hotspot h{s.where.lat_deg[i], s.where.lon_deg[i], static_cast<double>(s.mir_K[i])};

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/files.h"
+#include "imagery/image_channels.h"
 
 namespace pyroscene::imagery {
 namespace {
@@ -54,6 +55,17 @@ std::string name_of(const Column& column, const HotspotTable& table) {
 }
 
 }  // namespace
+
+HotspotTable hotspots_of(const gis::ImageInfo& info) {
+    const auto when = date_and_clock(metadata_item(info, "ACQUISITION_DATE"));
+    HotspotTable table;
+    table.date = when.date;
+    table.clock = when.clock;
+    table.satellite = table.instrument = metadata_item(info, "SENSOR");
+    table.synthetic = info.metadata.contains("synthetic");
+    table.version = table.synthetic ? "synthetic" : "";
+    return table;
+}
 
 void write_hotspots_csv(const std::filesystem::path& path, const HotspotTable& table) {
     std::string text;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gis/image_stream.h"
 #include "gis/vector_output.h"
 
 namespace pyroscene::imagery {
@@ -27,6 +28,9 @@ struct HotspotTable {
     bool synthetic = false;
     std::vector<Hotspot> rows;
 };
+
+/// Without rows: date, clock, instrument and origin as the image says them.
+HotspotTable hotspots_of(const gis::ImageInfo& info);
 
 /// Columns latitude, longitude, brightness, scan, track, acq_date, acq_time, satellite, instrument, confidence, version, bright_t31,
 /// frp, daynight.

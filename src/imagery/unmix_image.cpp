@@ -210,6 +210,7 @@ UnmixReport unmix_image(const UnmixJob& job) {
     const auto cores = job.threads > 0 ? static_cast<std::size_t>(job.threads)
                                        : std::size_t{std::max(1U, std::thread::hardware_concurrency())};
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, cores);
+    const gis::CompressionThreads compression_limit(job.threads);
     gis::ImageStream image(job.image);
     const gis::ImageInfo& info = image.info();
     std::optional<TruthClasses> truth;

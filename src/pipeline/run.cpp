@@ -308,6 +308,7 @@ void in_session(const Scenario& scenario, const RunOptions& options, RunReport& 
                              ? static_cast<std::size_t>(options.threads)
                              : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const gis::CompressionThreads compression_limit(options.threads);
     std::optional<Session> session;
     try {
         const PhaseTimer timer(report, "total");

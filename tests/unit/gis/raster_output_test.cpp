@@ -130,7 +130,7 @@ TEST(GeoTiff, TheFileIsTheSameForAnyNumberOfThreads) {
         OutputRaster raster = two_bands(1100, 900);
         raster.compression = compression;
         for (const int threads : {1, 2, 3}) {
-            raster.threads = threads;
+            const CompressionThreads limit(threads);
             write_geotiff(folder / ("g" + std::to_string(threads)), raster, std::span<const float>(pixels));
             write_cog(folder / ("c" + std::to_string(threads)), raster, pixels);
         }
