@@ -16,7 +16,6 @@ using scenario::RasterSource;
 using scenario::Scenario;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr int kLastAndersonModel = 13;  ///< the others of the table are Scott and Burgan's
 
 Raster<float> read(const RasterSource& source, const MapGrid& grid, gis::Resampling how, const char* name,
                    const char* unit) {
@@ -67,7 +66,7 @@ std::optional<Raster<float>> residence_time(const Scenario& s, const MapGrid& gr
 std::map<int, double> fuel_residence_times_s(const std::string& table) {
     std::map<int, double> times_s;
     for (const auto& [number, model] : spread::standard_fuel_models())
-        if (table == "fbfm53" || (number <= kLastAndersonModel) == (table == "fbfm13"))
+        if (scenario::in_shipped_fuel_table(table, number))
             times_s[number] = fire::residence_time_s(model.characteristic_surface_to_volume_per_m());
     return times_s;
 }

@@ -23,13 +23,11 @@ int first_band(const scenario::RasterSource& source) { return source.bands.empty
 }  // namespace
 
 spread::FuelModels fuel_models(const FuelSource& source) {
-    constexpr int kLastAndersonModel = 13;
     spread::FuelModels models;
     const bool shipped = scenario::is_shipped_fuel_table(source.table);
     if (!shipped) models = spread::read_fuel_models(source.table);
     for (const auto& [number, model] : spread::standard_fuel_models())
-        if (source.table == "fbfm53" || (shipped && (number <= kLastAndersonModel) == (source.table == "fbfm13")))
-            models[number] = model;
+        if (shipped && scenario::in_shipped_fuel_table(source.table, number)) models[number] = model;
     if (source.custom)
         for (const auto& [number, model] : spread::read_fuel_models(*source.custom)) models[number] = model;
     return models;

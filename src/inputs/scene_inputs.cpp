@@ -47,18 +47,13 @@ Raster<std::uint8_t> cover_materials(const Scenario& scenario, const MapGrid& gr
     const bool shipped = scenario::is_shipped_fuel_table(source.table);
     const auto table = radiometry::load_fuel_surfaces(shipped ? data_folder() / "fuel" / "surface_of_fuel.csv"
                                                               : std::filesystem::path(source.table));
-    constexpr int kLastAndersonModel = 13;
     std::map<int, std::uint8_t> index_of_code;
     for (std::size_t i = 0; i < codes.values.size(); ++i) {
         const int code = codes.values[i];
         auto known = index_of_code.find(code);
         if (known == index_of_code.end()) {
-            auto name = radiometry::surface_of_fuel(table,
-                                                    !shipped                     ? ""
-                                                    : source.table != "fbfm53"   ? source.table
-                                                    : code <= kLastAndersonModel ? "fbfm13"
-                                                                                 : "fbfm40",
-                                                    code);
+            auto name = radiometry::surface_of_fuel(
+                table, shipped ? scenario::fuel_set_of(source.table, code) : std::string(), code);
             if (name.empty()) name = scenario.surface.unburned;
             auto position = std::find(names.begin(), names.end(), name);
             if (position == names.end()) position = names.insert(names.end(), name);

@@ -5,6 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "base/constants.h"
+
 namespace pyroscene::pipeline {
 namespace {
 
@@ -14,6 +16,25 @@ double positive_degrees(double angle_rad) {
 }
 
 }  // namespace
+
+LocalSun::LocalSun(double unix_s, const gis::Geodetic& centre)
+    : unix_s_(unix_s), centre_(centre), here_(radiometry::sun_position(unix_s, centre.lat_deg, centre.lon_deg)) {
+    constexpr double kStep_deg = 0.05;
+    const auto north = radiometry::sun_position(unix_s, centre.lat_deg + kStep_deg, centre.lon_deg),
+               east = radiometry::sun_position(unix_s, centre.lat_deg, centre.lon_deg + kStep_deg);
+    zenith_per_deg_ = {(north.zenith_rad - here_.zenith_rad) / kStep_deg, (east.zenith_rad - here_.zenith_rad) / kStep_deg};
+    azimuth_per_deg_ = {std::remainder(north.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg,
+                        std::remainder(east.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg};
+}
+
+radiometry::SunPosition LocalSun::at(double lat_deg, double lon_deg) const {
+    constexpr double kNear_deg = 0.1, kNearZenith_rad = 20.0 * kDegree_rad;
+    const double north_deg = lat_deg - centre_.lat_deg, east_deg = std::remainder(lon_deg - centre_.lon_deg, 360.0);
+    if (std::abs(north_deg) > kNear_deg || std::abs(east_deg) > kNear_deg || here_.zenith_rad < kNearZenith_rad)
+        return radiometry::sun_position(unix_s_, lat_deg, lon_deg);
+    return {here_.zenith_rad + zenith_per_deg_[0] * north_deg + zenith_per_deg_[1] * east_deg,
+            here_.azimuth_rad + azimuth_per_deg_[0] * north_deg + azimuth_per_deg_[1] * east_deg, here_.distance_AU};
+}
 
 Geolocation::Geolocation(const sensors::ImageGeometry& geometry, const sensors::ImageChords& chords, const LocalSun& sun,
                          std::optional<double> surroundings_m)
@@ -48,13 +69,14 @@ void Geolocation::place_line(const render::RadianceImage& lines, int line) {
         const double lon = std::lerp(chord.top_lon_deg, chord.bottom_lon_deg, f);
         const double lat = std::lerp(chord.top_lat_deg, chord.bottom_lat_deg, f);
         const Vec3 v = chord.view_enu;
+        const auto sun = sun_->at(lat, lon);
         const double values[] = {lon,
                                  lat,
                                  hit_m.z,
                                  std::atan2(std::hypot(v.x, v.y), v.z) / kDegree_rad,
                                  positive_degrees(std::atan2(v.x, v.y)),
-                                 sun_->zenith_rad(lat, lon) / kDegree_rad,
-                                 positive_degrees(sun_->azimuth_rad(lat, lon)),
+                                 sun.zenith_rad / kDegree_rad,
+                                 positive_degrees(sun.azimuth_rad),
                                  std::lerp(chord.top_range_m, chord.bottom_range_m, f),
                                  sensors::pixel_time_s(geometry, sample, line)};
         for (std::size_t b = 0; b < std::size(values); ++b) planes_[b * pixels_ + i] = values[b];

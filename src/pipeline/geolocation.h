@@ -1,11 +1,9 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
-#include "base/constants.h"
 #include "gis/geodesy.h"
 #include "gis/raster_output.h"
 #include "radiometry/sun.h"
@@ -14,35 +12,19 @@
 
 namespace pyroscene::pipeline {
 
-/// Sun angles over the scene: exact at the centre, linear in latitude and longitude around it (a few km: < 0.001 deg).
+/// The sun over an image at one moment: linear within 0.1 degrees of latitude and longitude of the centre, where that is right to 0.003
+/// degrees, exact beyond, and where the sun stands within 20 degrees of the zenith, as its azimuth turns fast there.
 class LocalSun {
 public:
-    LocalSun(double unix_s, const gis::Geodetic& centre) : centre_(centre) {
-        const auto at = [&](double dlat, double dlon) {
-            return radiometry::sun_position(unix_s, centre.lat_deg + dlat, centre.lon_deg + dlon);
-        };
-        constexpr double kStep_deg = 0.05;
-        here_ = at(0.0, 0.0);
-        const auto north = at(kStep_deg, 0.0), east = at(0.0, kStep_deg);
-        zenith_per_deg_ = {(north.zenith_rad - here_.zenith_rad) / kStep_deg,
-                           (east.zenith_rad - here_.zenith_rad) / kStep_deg};
-        azimuth_per_deg_ = {std::remainder(north.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg,
-                            std::remainder(east.azimuth_rad - here_.azimuth_rad, 2.0 * kPi) / kStep_deg};
-    }
-    [[nodiscard]] const radiometry::SunPosition& centre() const { return here_; }
-    [[nodiscard]] double zenith_rad(double lat_deg, double lon_deg) const {
-        return here_.zenith_rad + zenith_per_deg_[0] * (lat_deg - centre_.lat_deg) +
-               zenith_per_deg_[1] * (lon_deg - centre_.lon_deg);
-    }
-    [[nodiscard]] double azimuth_rad(double lat_deg, double lon_deg) const {
-        return here_.azimuth_rad + azimuth_per_deg_[0] * (lat_deg - centre_.lat_deg) +
-               azimuth_per_deg_[1] * (lon_deg - centre_.lon_deg);
-    }
+    LocalSun(double unix_s, const gis::Geodetic& centre);
+    [[nodiscard]] const radiometry::SunPosition& centre() const noexcept { return here_; }
+    [[nodiscard]] radiometry::SunPosition at(double lat_deg, double lon_deg) const;
 
 private:
+    double unix_s_;
     gis::Geodetic centre_;
     radiometry::SunPosition here_;
-    std::array<double, 2> zenith_per_deg_{}, azimuth_per_deg_{};
+    std::array<double, 2> zenith_per_deg_{}, azimuth_per_deg_{};  ///< north, east
 };
 
 /// The planes of geolocation.tif in its order: name and unit.
