@@ -98,16 +98,17 @@ public:
         const auto open = static_cast<float>(1.0 - hidden_sr / kPi);
         const radiometry::ViewAtmosphere& air = *shared_->scene.atmosphere;
         const SmokeShade shade = out.smoke != nullptr ? out.smoke->at({receiver.x_m, receiver.y_m, 0.0}) : SmokeShade{};
-        if (shade.above > 0.0F) smoky_sky_.look_from(shade);
+        const bool smoky = shade.above > 0.0F || shade.to_sun > 0.0F;
+        if (smoky) smoky_sky_.look_from(shade);
         const auto sum = [&](std::vector<float>& into, const std::vector<float>& whole, const float* a, const float* b,
-                             bool glows) {
+                             bool thermal) {
             if (into.empty()) return;
             float* irradiance = at(into);
             const float* sky = whole.data();
-            if (shade.above > 0.0F) {
+            if (smoky) {
                 const SmokeSpectra& smoke = tables_->smoke;
                 dimmed_sky_.resize(through_.size());
-                smoky_sky_.dim((glows ? smoke.thermal_sky : smoke.sky).data(), glows, dimmed_sky_.data());
+                smoky_sky_.dim((thermal ? smoke.thermal_sky : smoke.sky).data(), thermal, dimmed_sky_.data());
                 sky = dimmed_sky_.data();
             }
             for (std::size_t l = 0; l < static_cast<std::size_t>(light.lambda_count); ++l)

@@ -81,12 +81,12 @@ void GroundMix::resolve_shaded(const ShadedPart& part, GroundSpectra& out) {
     }
     if (part.open == 0.0) return;
     smoky_sky_.look_from(part.smoke);
-    const auto add = [&](const float* sky, bool glows, GroundSpectra::Part into) {
-        smoky_sky_.dim(sky, glows, sky_.data());
+    const auto add = [&](const float* sky, bool thermal, GroundSpectra::Part into) {
+        smoky_sky_.dim(sky, thermal, sky_.data());
         kernels_->add_product(t.stride, static_cast<float>(part.open), reflectance, sky_.data(), out.part(into));
     };
     if (t.has_sky) add(t.smoke.sky.data(), false, GroundSpectra::Sky);
-    add(t.smoke.thermal_sky.data(), part.smoke.above > 0.0F, GroundSpectra::ThermalSky);
+    add(t.smoke.thermal_sky.data(), true, GroundSpectra::ThermalSky);
 }
 
 void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out) {

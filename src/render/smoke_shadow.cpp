@@ -106,20 +106,20 @@ void SmokySky::look_from(const SmokeShade& shade) {
     spread(at_nodes.sun, sun_);
 }
 
-void SmokySky::dim(const float* sky, bool glows, float* out) const {
+void SmokySky::dim(const float* sky, bool thermal, float* out) const {
     const SceneTables& t = *tables_;
     const SmokeSpectra& smoke = t.smoke;
     const auto pi = static_cast<float>(kPi);
     kernels_->product(t.stride, 1.0F, through_.data(), sky, out);
     const auto add_back = [&](std::size_t l, float ground) { out[l] += back_[l] * pi * ground; };
     const float mu0 = smoke.diffusion.nodes.sun_cosine;
-    if (!glows && diffuse() && mu0 > 0.0F)
+    if (!thermal && diffuse() && mu0 > 0.0F)
         for (std::size_t l = 0; l < through_.size(); ++l) {
             const float straight = mu0 * std::exp(-smoke.extinction_per_m[l] * shade_.to_sun);
             add_back(l, smoke.ground_lit[l] * sun_[l] / mu0);
             out[l] += std::max(sun_[l] - straight, 0.0F) * smoke.sun[l];
         }
-    if (!glows) return;
+    if (!thermal || !(shade_.above > 0.0F)) return;
     const PlanckRows::Lookup warm = t.planck.at(shade_.temperature_K);
     for (std::size_t l = 0; l < through_.size(); ++l) {
         float B = 0.0F;

@@ -40,8 +40,9 @@ public:
     explicit SmokySky(const SceneTables& tables);
 
     void look_from(const SmokeShade& shade);
-    /// Of a sky's irradiance without smoke, after look_from().  \param glows  the thermal sky: smoke has its B and ground its own
-    void dim(const float* sky, bool glows, float* out) const;
+    /// Of a sky's irradiance without smoke, after look_from().
+    /// \param thermal  the thermal sky: smoke has its B and ground its own; false: the sunlit sky, with what smoke scatters down
+    void dim(const float* sky, bool thermal, float* out) const;
 
 private:
     [[nodiscard]] bool diffuse() const noexcept { return !tables_->smoke.diffusion.empty(); }

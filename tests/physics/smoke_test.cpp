@@ -140,6 +140,34 @@ TEST(Smoke, DimsTheSunAndTheSkyOnTheGround) {
                 1e-5);
 }
 
+// Ground beside the smoke, with the smoke between it and the sun: sunlight that smoke sends down is sky light once, and the
+// thermal sky, which has no smoke in it, stays what it is. Near flames as elsewhere.
+TEST(Smoke, BesideItScattersSunlightIntoTheSunlitSkyOnly) {
+    const double reflectance = 0.3;
+    TestScene scene = layer({0.004, 0.9, 0.6}, 2, 300.0, 300.0, reflectance);
+    scene.plume =
+        fire::make_flame_field({.corner_m = {240.0, -5e4, 100.0}, .nx = 1, .ny = 1, .dx_m = 1e5, .dy_m = 1e5, .dz_m = 100.0},
+                               box_of_voxels(1, 1, 2, 300.0));
+    scene.to_sun = direction(60.0 * kDegree_rad, 90.0 * kDegree_rad);
+    scene.set_sky(280.0);
+    scene.atmosphere.direct_normal_irradiance_W_m2_um.assign(kLambda_um.size(), 1200.0F);
+    scene.atmosphere.diffuse_irradiance_W_m2_um.assign(kLambda_um.size(), 200.0F);
+    const render::SceneRay down{{80.0, 80.0, 1000.0}, {80.0, 80.0, -1.0}};
+    const auto dark = render::render_image(scene.scene(), nullptr, rays_request({down}));
+    const std::vector<fire::FlameVoxel> spark{{0, 0, 0, 1e-6F, 1000.0F}};
+    scene.set_flame({.corner_m = {20.0, 20.0, 0.0}, .nx = 1, .ny = 1, .dx_m = 2.0, .dy_m = 2.0, .dz_m = 2.0}, spark);
+    const auto light = render::ground_irradiance(scene.scene(), {.reach_m = 300.0});
+    ASSERT_FALSE(light.thermal_irradiance_W_m2_um.empty());
+    const auto lit = render::render_image(scene.scene(), &light, rays_request({down}));
+    for (std::size_t b = 0; b < kLambda_um.size(); ++b) {
+        const double thermal = reflectance * radiometry::planck_radiance(kLambda_um[b], 280.0);
+        EXPECT_NEAR(term(dark, Term::ReflectedThermalSky, b), thermal, 1e-5 * thermal) << kLambda_um[b];
+        EXPECT_NEAR(term(lit, Term::ReflectedThermalSky, b), thermal, 1e-4 * thermal) << kLambda_um[b];
+        EXPECT_GT(term(dark, Term::ReflectedSky, b), 1.2 * reflectance * 200.0 / kPi);
+        EXPECT_NEAR(term(lit, Term::ReflectedSky, b) / term(dark, Term::ReflectedSky, b), 1.0, 1e-4);
+    }
+}
+
 // What single scattering leaves out (docs/physics-render.md has the table): little when thin, most of the light when thick.
 TEST(Smoke, SingleScatteringIsTheThinLimitOfAllOrders) {
     const double mu0 = std::cos(40.0 * kDegree_rad), albedo = 0.9, g = 0.6;
