@@ -47,7 +47,7 @@ std::array<double, 2> place(const Acquisition& acquisition, const inputs::SceneI
     return {x / n, y / n};
 }
 
-radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, double ground_elevation_m) {
+radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, radiometry::ElevationRange ground) {
     const auto& source = scenario.atmosphere;
     std::optional<gis::NetcdfFile> open;  // the variables of a file are asked for one after the other
     const auto read = [&](const std::filesystem::path& path, const std::string& variable) {
@@ -57,7 +57,7 @@ radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, double groun
     if (source.file)
         return {
             {radiometry::make_atmosphere_table([&](const std::string& variable) { return read(*source.file, variable); })}};
-    return radiometry::make_atmosphere_set(source.model, source.visibility_km, ground_elevation_m,
+    return radiometry::make_atmosphere_set(source.model, source.visibility_km, ground,
                                            [&](const std::string& file, const std::string& variable) {
                                                return read(data_folder() / "atmosphere" / file, variable);
                                            });
@@ -155,11 +155,27 @@ FireScene make_fire_scene(const Scenario& scenario, const inputs::SceneInputs& i
 
 namespace {
 
-/// The air of an acquisition: what surrounds it, and its tables unless there is none.
+/// The air of an acquisition: what surrounds it, heights of the ground for which the path to the sensor is made, and its
+/// tables unless there is none.
 struct SceneAir {
     radiometry::AtmosphereConditions conditions;
+    std::vector<double> ground_heights_m;
     std::optional<radiometry::AtmosphereSet> set;
 };
+
+/// Heights above `ground_m` that enclose the relief, from the highest down. They lie at round elevations, among them those of the
+/// shipped tables, between which these are bent.
+std::vector<double> ground_heights_m(const inputs::SceneInputs& in, double ground_m) {
+    constexpr double kStep_m = 250.0, kLevel_m = 20.0;
+    if (!(in.highest_m - in.lowest_m > kLevel_m)) return {0.0};
+    const double to_table_m = ground_m - in.mean_height_m;
+    std::vector<double> heights_m;
+    const double lowest = std::floor((in.lowest_m + to_table_m) / kStep_m);
+    for (double step = std::ceil((in.highest_m + to_table_m) / kStep_m); step >= lowest; step -= 1.0)
+        heights_m.push_back(step * kStep_m - ground_m);
+    return heights_m;
+}
+
 SceneAir scene_air(const Scenario& scenario, const inputs::SceneInputs& in, double sensor_agl_m,
                    const radiometry::SunPosition& sun) {
     SceneAir air;
@@ -168,8 +184,11 @@ SceneAir scene_air(const Scenario& scenario, const inputs::SceneInputs& in, doub
     air.conditions.visibility_km = scenario.atmosphere.visibility_km;
     air.conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
     air.conditions.sun_distance_AU = sun.distance_AU;
-    if (scenario.atmosphere.model != "none" || scenario.atmosphere.file)
-        air.set = load_atmosphere(scenario, air.conditions.ground_elevation_m);
+    if (scenario.atmosphere.model == "none" && !scenario.atmosphere.file) return air;
+    // A table of the user's is for one height of the ground.
+    const double ground_m = air.conditions.ground_elevation_m;
+    air.ground_heights_m = scenario.atmosphere.file ? std::vector<double>{0.0} : ground_heights_m(in, ground_m);
+    air.set = load_atmosphere(scenario, {ground_m + air.ground_heights_m.back(), ground_m + air.ground_heights_m.front()});
     return air;
 }
 
@@ -281,7 +300,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
             albedo[i] += share[m] * static_cast<double>(optics.reflectance[m * static_cast<std::size_t>(n) + i]);
 
     if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, air.set->tables.front(), out.grid);
-    out.atmosphere = radiometry::make_view_atmosphere(*air.set, air.conditions, out.grid, albedo);
+    out.atmosphere = radiometry::make_view_atmosphere(*air.set, air.conditions, out.grid, albedo, air.ground_heights_m);
     out.air_K = air_temperature_K(*air.set, air.conditions);
     for (const auto& warning : radiometry::atmosphere_warnings(*air.set, air.conditions))
         report.warn("atmosphere: " + warning);

@@ -209,12 +209,13 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     request.lines = job.geometry.lines;
     set_rays(job, chords, request);
     const double sun_azimuth_rad = sun.centre().azimuth_rad;
-    request.view = [&](int line, int sample, Vec3) {
+    request.view = [&](int line, int sample, Vec3 hit_m) {
         const auto position = sensors::scan_position_of(job.geometry, sample, line);
         const Vec3 v = chords.scan(position.scan).at(position.u, position.v).view_enu;
         const double line_of_sight_rad = std::atan2(v.x, v.y) + kPi;
         return render::PixelView{std::atan2(std::hypot(v.x, v.y), std::abs(v.z)),
-                                 std::remainder(sun_azimuth_rad - line_of_sight_rad, 2.0 * kPi)};
+                                 std::remainder(sun_azimuth_rad - line_of_sight_rad, 2.0 * kPi),
+                                 chords.open() ? 0.0 : hit_m.z + in.origin_m.z - in.mean_height_m};
     };
     request.terms = scenario.products.truth;
 

@@ -26,10 +26,17 @@ std::vector<std::string> atmosphere_models();
 /// All files of a model. Throws an input error that lists the models for an unknown one.
 std::vector<AtmosphereFile> atmosphere_files(const std::string& model);
 
-/// The files that AtmosphereSet needs for one visibility and ground elevation, in the order in which it expects them: the
+/// Elevations of the ground in a scene, m above sea level; one number stands for level ground.
+struct ElevationRange {
+    double lowest_m, highest_m;
+    ElevationRange(double level_m) : lowest_m(level_m), highest_m(level_m) {}  // NOLINT(google-explicit-constructor)
+    ElevationRange(double lowest, double highest) : lowest_m(lowest), highest_m(highest) {}
+};
+
+/// The files that AtmosphereSet needs for one visibility and range of ground elevations, in the order in which it expects them: the
 /// model's own tables, then, where the model lacks a visibility or an elevation, tables of midlatitude_summer that give the
 /// relative change. Values outside the tables are clamped (atmosphere_warnings tells).
-std::vector<AtmosphereFile> needed_files(const std::string& model, double visibility_km, double ground_elevation_m);
+std::vector<AtmosphereFile> needed_files(const std::string& model, double visibility_km, ElevationRange ground);
 
 /// Tables that describe one atmosphere, in the order of needed_files. A (visibility, ground elevation) pair that occurs a
 /// second time marks where the reference model's tables begin. A single table (a user's own) is used as it is, whatever
@@ -40,7 +47,7 @@ struct AtmosphereSet {
 
 /// Reads the tables of needed_files. \param read gives one variable of one of the files.
 AtmosphereSet make_atmosphere_set(
-    const std::string& model, double visibility_km, double ground_elevation_m,
+    const std::string& model, double visibility_km, ElevationRange ground,
     const std::function<std::vector<double>(const std::string& file, const std::string& variable)>& read);
 
 /// What surrounds an acquisition.
@@ -88,12 +95,18 @@ std::vector<std::string> atmosphere_warnings(const AtmosphereSet& set, const Atm
 /// The same for a single line of sight (view zenith too).
 std::vector<std::string> atmosphere_warnings(const AtmosphereSet& set, const AtmospherePoint& point);
 
+/// Ground without relief (make_view_atmosphere).
+inline constexpr std::array<double, 1> kLevelGround{0.0};
+
 /// The atmosphere on a spectral grid, for all view directions of one acquisition. Every quantity is averaged over the
 /// node's window; C becomes the factor that makes  E_dir C tau  of the averages equal to the average of the product.
 /// Ground-sky bounces and adjacency use the albedo of the surroundings.
 /// \param mean_albedo_per_node 0..1, one per grid node
-/// Throws as evaluate(), and an input error when the numbers of albedos and nodes differ.
+/// \param ground_heights_m of the ground seen above that of the conditions, m, falling: the nodes between which the path up to
+///        the sensor is interpolated (docs/physics-radiometry.md says how far apart). The illumination is that of the conditions.
+/// Throws as evaluate(), and an input error when the numbers of albedos and nodes differ or the heights do not fall.
 ViewAtmosphere make_view_atmosphere(const AtmosphereSet& set, const AtmosphereConditions& conditions,
-                                    const SpectralGrid& grid, std::span<const double> mean_albedo_per_node);
+                                    const SpectralGrid& grid, std::span<const double> mean_albedo_per_node,
+                                    std::span<const double> ground_heights_m = kLevelGround);
 
 }  // namespace pyroscene::radiometry

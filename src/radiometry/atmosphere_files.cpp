@@ -39,15 +39,14 @@ AtmosphereFile file(const std::string& model, double visibility_km, double groun
             ground_km};
 }
 
-/// The one or two values of an ascending list that enclose x; the nearest end outside.
+/// The values of an ascending list between which all from `low` to `high` lie; the nearest end outside.
 template <std::size_t N>
-std::vector<double> enclosing(const std::array<double, N>& values, double x) {
-    if (x <= values.front()) return {values.front()};
-    for (std::size_t i = 1; i < N; ++i) {
-        if (x == values[i]) return {values[i]};
-        if (x < values[i]) return {values[i - 1], values[i]};
-    }
-    return {values.back()};
+std::vector<double> enclosing(const std::array<double, N>& values, double low, double high) {
+    auto first = std::upper_bound(values.begin(), values.end(), low);
+    auto last = std::lower_bound(values.begin(), values.end(), high);
+    if (first != values.begin()) --first;
+    if (last == values.end()) --last;
+    return {first, std::max(first, last) + 1};
 }
 
 void add(std::vector<AtmosphereFile>& files, const AtmosphereFile& wanted) {
@@ -73,10 +72,10 @@ std::vector<AtmosphereFile> atmosphere_files(const std::string& model) {
     return files;
 }
 
-std::vector<AtmosphereFile> needed_files(const std::string& model, double visibility_km, double ground_elevation_m) {
+std::vector<AtmosphereFile> needed_files(const std::string& model, double visibility_km, ElevationRange ground) {
     const bool complete = find_model(model).complete;
-    const auto grounds = enclosing(kGrounds_km, ground_elevation_m / 1000.0);
-    const auto visibilities = enclosing(kVisibilities_km, visibility_km);
+    const auto grounds = enclosing(kGrounds_km, ground.lowest_m / 1000.0, ground.highest_m / 1000.0);
+    const auto visibilities = enclosing(kVisibilities_km, visibility_km, visibility_km);
     const bool other_ground = grounds.back() > 0.0, other_visibility = visibilities != std::vector{kBaseVisibility_km};
 
     std::vector<AtmosphereFile> files;
@@ -92,10 +91,10 @@ std::vector<AtmosphereFile> needed_files(const std::string& model, double visibi
 }
 
 AtmosphereSet make_atmosphere_set(
-    const std::string& model, double visibility_km, double ground_elevation_m,
+    const std::string& model, double visibility_km, ElevationRange ground,
     const std::function<std::vector<double>(const std::string& file, const std::string& variable)>& read) {
     AtmosphereSet set;
-    for (const auto& needed : needed_files(model, visibility_km, ground_elevation_m))
+    for (const auto& needed : needed_files(model, visibility_km, ground))
         set.tables.push_back(
             make_atmosphere_table([&](const std::string& variable) { return read(needed.file, variable); }));
     return set;

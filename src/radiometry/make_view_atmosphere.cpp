@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -136,23 +138,40 @@ void append_view(ViewAtmosphere& out, const PathTerms& path, const Setting& s) {
     }
 }
 
-/// Beer's law between the view nodes: air that hardly lets through anything is no straight line in the secant.
-void set_transmittance_steps(ViewAtmosphere& out) {
+/// Beer's law between nodes `apart` from each other: air that hardly lets through anything is no straight line in the secant,
+/// nor in the height of the ground.
+std::vector<float> transmittance_steps(const std::vector<float>& transmittance, std::size_t apart) {
     constexpr float kLeast = -6.0F;
-    const auto count = static_cast<std::size_t>(out.lambda_count());
-    auto& step = out.ln_transmittance_step;
-    step.assign(out.transmittance.size(), 0.0F);
-    for (std::size_t i = 0; i + count < step.size(); ++i) {
-        const float here = out.transmittance[i], next = out.transmittance[i + count];
-        if (here > 0.0F && next > 0.0F) step[i] = std::max(std::log(next / here), kLeast);
+    std::vector<float> step(transmittance.size(), 0.0F);
+    for (std::size_t i = 0; i + apart < step.size(); ++i) {
+        const float here = transmittance[i], next = transmittance[i + apart];
+        if (here > 0.0F && next > 0.0F) step[i] = std::clamp(std::log(next / here), kLeast, 0.0F);
     }
+    return step;
+}
+
+/// The same conditions over ground of another height, under the same sensor.
+AtmosphereConditions over_ground(AtmosphereConditions conditions, double height_m) {
+    conditions.ground_elevation_m += height_m;
+    conditions.sensor_altitude_agl_m = std::max(conditions.sensor_altitude_agl_m - height_m, 0.0);
+    return conditions;
+}
+
+void check_heights(std::span<const double> heights_m) {
+    const bool falling = std::adjacent_find(heights_m.begin(), heights_m.end(), std::less_equal<>()) == heights_m.end();
+    const bool finite = std::all_of(heights_m.begin(), heights_m.end(), [](double h) { return std::isfinite(h); });
+    if (heights_m.empty() || !falling || !finite)
+        throw input_error("atmosphere",
+                          fmt::format("heights of the ground {} m, expected falling numbers", fmt::join(heights_m, ", ")));
 }
 
 }  // namespace
 
 ViewAtmosphere make_view_atmosphere(const AtmosphereSet& set, const AtmosphereConditions& conditions,
-                                    const SpectralGrid& grid, std::span<const double> mean_albedo_per_node) {
+                                    const SpectralGrid& grid, std::span<const double> mean_albedo_per_node,
+                                    std::span<const double> ground_heights_m) {
     check_numbers(AtmospherePoint{conditions, 0.0, 0.0});
+    check_heights(ground_heights_m);
     (void)sort_tables(set);
     const auto nodes = static_cast<std::size_t>(grid.size());
     if (mean_albedo_per_node.size() != nodes)
@@ -169,15 +188,20 @@ ViewAtmosphere make_view_atmosphere(const AtmosphereSet& set, const AtmosphereCo
     for (std::size_t n = 0; n < nodes; ++n)
         setting.windows.push_back(make_window(axis, grid.cell_lower_um[n], grid.cell_upper_um[n]));
 
-    const BlendedAtmosphere atmosphere(set, conditions, range);
     PathTerms path;
     out.node_secant = view_secants(set.tables.front().view_zenith_deg);
-    for (const double secant : out.node_secant) {
-        atmosphere.at(secant, path);
-        if (out.direct_normal_irradiance_W_m2_um.empty()) append_illumination(out, path, setting);
-        append_view(out, path, setting);
+    out.height_m.assign(ground_heights_m.begin(), ground_heights_m.end());
+    BlendedAtmosphere(set, conditions, range).at(out.node_secant.front(), path);
+    append_illumination(out, path, setting);
+    for (const double height_m : out.height_m) {
+        const BlendedAtmosphere atmosphere(set, over_ground(conditions, height_m), range);
+        for (const double secant : out.node_secant) {
+            atmosphere.at(secant, path);
+            append_view(out, path, setting);
+        }
     }
-    set_transmittance_steps(out);
+    out.ln_transmittance_step = transmittance_steps(out.transmittance, nodes);
+    out.ln_transmittance_drop = transmittance_steps(out.transmittance, nodes * out.node_secant.size());
     return out;
 }
 

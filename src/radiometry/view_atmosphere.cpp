@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 
 namespace pyroscene::radiometry {
 
@@ -18,6 +19,20 @@ float exp_of_step(float x) noexcept {
     return fourth * fourth;
 }
 
+/// Where a value lies on a sorted axis: between `first` and the node `step` (0 or 1) after it.
+struct Between {
+    std::size_t first = 0, step = 0;
+    double fraction = 0.0;
+};
+template <class Before>
+Between between(const std::vector<double>& axis, double value, Before before) {
+    if (axis.size() < 2) return {};
+    const auto after = static_cast<std::size_t>(std::upper_bound(axis.begin(), axis.end(), value, before) - axis.begin());
+    const std::size_t first = std::clamp<std::size_t>(after, 1, axis.size() - 1) - 1;
+    const double fraction = (value - axis[first]) / (axis[first + 1] - axis[first]);
+    return {first, 1, fraction > 0.0 ? std::min(fraction, 1.0) : 0.0};
+}
+
 }  // namespace
 
 void ViewAtmosphere::View::resize(int n) {
@@ -25,42 +40,50 @@ void ViewAtmosphere::View::resize(int n) {
     for (auto* array : {&transmittance, &path_thermal, &path_solar, &solar_correlation, &adjacency}) array->resize(size);
 }
 
-void ViewAtmosphere::at(double view_zenith_rad, double relative_azimuth_rad, View& out) const noexcept {
-    const std::size_t count = static_cast<std::size_t>(lambda_count()), nodes = node_secant.size();
+void ViewAtmosphere::at(double view_zenith_rad, double relative_azimuth_rad, double ground_m, View& out) const noexcept {
+    const std::size_t count = static_cast<std::size_t>(lambda_count());
     const double cosine = std::cos(view_zenith_rad);
     const double secant =
         cosine > 1.0 / node_secant.back() ? 1.0 / cosine : node_secant.back();  // NaN and horizon: last node
-    const auto above =
-        static_cast<std::size_t>(std::upper_bound(node_secant.begin(), node_secant.end(), secant) - node_secant.begin());
-    const std::size_t i1 = std::min(std::max<std::size_t>(above, 1), nodes - 1), i0 = i1 > 0 ? i1 - 1 : 0;
-    const double span = node_secant[i1] - node_secant[i0];
-    const auto f = static_cast<float>(span > 0.0 ? std::clamp((secant - node_secant[i0]) / span, 0.0, 1.0) : 0.0);
+    const Between view = between(node_secant, secant, std::less<>()), ground = between(height_m, ground_m, std::greater<>());
+    const auto f = static_cast<float>(view.fraction), g = static_cast<float>(ground.fraction);
+    const std::size_t corner = (ground.first * node_secant.size() + view.first) * count, aside = view.step * count,
+                      below = ground.step * node_secant.size() * count;
     const auto c1 = static_cast<float>(std::cos(relative_azimuth_rad)),
                c2 = static_cast<float>(std::cos(2.0 * relative_azimuth_rad));
 
-    const auto lerp = [&](const std::vector<float>& table, std::vector<float>& to) {
-        const float* low = table.data() + i0 * count;
-        const float* high = table.data() + i1 * count;
-        float* result = to.data();
-        for (std::size_t l = 0; l < count; ++l) result[l] = low[l] + f * (high[l] - low[l]);
+    /// value(i) of the corners of the cell, linear in both directions.
+    const auto blend = [&](const auto& value, float* to) {
+        const auto along_view = [&](std::size_t i) {
+            const float low = value(i);
+            return low + f * (value(i + aside) - low);
+        };
+        if (below == 0) {
+            for (std::size_t l = 0; l < count; ++l) to[l] = along_view(corner + l);
+        } else {
+            for (std::size_t l = 0; l < count; ++l) {
+                const float high = along_view(corner + l);
+                to[l] = high + g * (along_view(corner + below + l) - high);
+            }
+        }
     };
-    if (ln_transmittance_step.empty()) {
-        lerp(transmittance, out.transmittance);
-    } else {
-        const float *low = transmittance.data() + i0 * count, *step = ln_transmittance_step.data() + i0 * count;
-        for (std::size_t l = 0; l < count; ++l) out.transmittance[l] = low[l] * exp_of_step(f * step[l]);
-    }
-    lerp(path_thermal_W_m2_sr_um, out.path_thermal);
-    lerp(solar_correlation, out.solar_correlation);
-    lerp(adjacency_W_m2_sr_um, out.adjacency);
+    const auto of = [](const std::vector<float>& table) { return [t = table.data()](std::size_t i) { return t[i]; }; };
+    blend(of(path_thermal_W_m2_sr_um), out.path_thermal.data());
+    blend(of(solar_correlation), out.solar_correlation.data());
+    blend(of(adjacency_W_m2_sr_um), out.adjacency.data());
+    blend([&](std::size_t i) { return path_solar_a0[i] + c1 * path_solar_a1[i] + c2 * path_solar_a2[i]; },
+          out.path_solar.data());
+    for (std::size_t l = 0; l < count; ++l) out.path_solar[l] = std::max(0.0F, out.path_solar[l]);  // the series is cut off
 
-    const auto series = [&](std::size_t node, std::size_t l) {
-        const std::size_t i = node * count + l;
-        return path_solar_a0[i] + c1 * path_solar_a1[i] + c2 * path_solar_a2[i];
-    };
-    for (std::size_t l = 0; l < count; ++l) {
-        const float low = series(i0, l), high = series(i1, l);
-        out.path_solar[l] = std::max(0.0F, low + f * (high - low));  // a truncated series may undershoot
+    const float *tau = transmittance.data() + corner, *step = ln_transmittance_step.data() + corner,
+                *drop = ln_transmittance_drop.data() + corner;
+    if (ln_transmittance_step.empty()) {
+        std::copy_n(tau, count, out.transmittance.begin());
+    } else if (below == 0) {
+        for (std::size_t l = 0; l < count; ++l) out.transmittance[l] = tau[l] * exp_of_step(f * step[l]);
+    } else {
+        for (std::size_t l = 0; l < count; ++l)
+            out.transmittance[l] = tau[l] * exp_of_step(f * step[l] + g * (drop[l] + f * (drop[l + aside] - drop[l])));
     }
 }
 

@@ -4,18 +4,20 @@
 
 namespace pyroscene::radiometry {
 
-/// Everything the atmosphere does on the transport grid of one acquisition: illumination of the ground and, per view
-/// zenith angle, what happens between the ground and the sensor. Index i runs over the SpectralGrid's nodes.
+/// Everything the atmosphere does on the transport grid of one acquisition: illumination of the ground and, per height of
+/// the ground and view zenith angle, what happens between there and the sensor. Index i runs over the SpectralGrid's nodes.
 struct ViewAtmosphere {
     // Illumination (at the ground). Solar terms are zero at night.
     std::vector<float> direct_normal_irradiance_W_m2_um;  ///< on a plane normal to the beam
     std::vector<float> diffuse_irradiance_W_m2_um;        ///< horizontal, including ground-sky bounces
     std::vector<float> thermal_irradiance_W_m2_um;        ///< horizontal, from the sky
 
-    // View dependent: [node][lambda], nodes ascending in secant of the view zenith angle at the ground.
+    // View dependent: [height][node][lambda], heights falling, nodes ascending in secant of the view zenith angle at the ground.
+    std::vector<double> height_m{0.0};  ///< of the ground seen, above the ground of the illumination
     std::vector<double> node_secant;
     std::vector<float> transmittance;
     std::vector<float> ln_transmittance_step;  ///< to the next node (0 at the last), at least -6; empty: one node
+    std::vector<float> ln_transmittance_drop;  ///< to the next lower ground (0 at the last), at least -6; empty: one height
     std::vector<float> path_thermal_W_m2_sr_um;
     std::vector<float> path_solar_a0, path_solar_a1, path_solar_a2;  ///< cosine series in relative azimuth [W m-2 sr-1 um-1]
     std::vector<float> solar_correlation;                            ///< C of the reflected beam, 1 in clear windows
@@ -29,8 +31,9 @@ struct ViewAtmosphere {
         void resize(int n);
     };
     /// \param view_zenith_rad at the ground, clamped to the table  \param relative_azimuth_rad sun azimuth minus azimuth of
-    ///        the line of sight (sensor to target): 0 = looking towards the sun.  `out` must be resized; no allocation.
-    void at(double view_zenith_rad, double relative_azimuth_rad, View& out) const noexcept;
+    ///        the line of sight (sensor to target): 0 = looking towards the sun  \param ground_m height of the ground seen, as
+    ///        height_m, clamped.  `out` must be resized; no allocation.
+    void at(double view_zenith_rad, double relative_azimuth_rad, double ground_m, View& out) const noexcept;
 };
 
 /// No air at all: transmittance and solar correlation 1, everything else 0; `lambda_count` nodes.

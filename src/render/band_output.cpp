@@ -39,7 +39,7 @@ BandOutput::BandOutput(const PreparedScene& prepared, bool with_terms)
 void BandOutput::compute(const Pixel& pixel, const PixelView& view, float* total, float* terms) {
     const SceneTables& t = prepared_->tables;
     if (!vacuum_) {
-        prepared_->scene.atmosphere->at(view.view_zenith_rad, view.relative_azimuth_rad, view_);
+        prepared_->scene.atmosphere->at(view.view_zenith_rad, view.relative_azimuth_rad, view.ground_m, view_);
         for (std::size_t i = 0; i < path_.size(); ++i)
             path_[i] = view_.path_thermal[i] + view_.path_solar[i] + view_.adjacency[i];
     }

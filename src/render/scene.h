@@ -140,6 +140,7 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
 struct PixelView {
     double view_zenith_rad = 0.0;       ///< of the line, upward or downward: at most pi/2
     double relative_azimuth_rad = 0.0;  ///< sun azimuth - line of sight azimuth
+    double ground_m = 0.0;              ///< height of the ground seen, as ViewAtmosphere::height_m
 };
 
 /// A share of a pixel's response: of the strata along an axis each is halved `level` times; index counts the halves.

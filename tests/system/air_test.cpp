@@ -23,14 +23,17 @@ constexpr double kCentre_x_m = 720000.0, kCentre_y_m = 5190000.0, kLat_deg = 46.
 /// Truth of the middle pixel of a camera that looks 40 degrees off nadir along a heading onto level ground without fire.
 class Look {
 public:
-    Look(const std::string& start, double heading_deg, const std::string& more = "") {
+    /// \param valley_m how much lower the ground lies 200 m north and south of the middle
+    Look(const std::string& start, double heading_deg, const std::string& more = "", double valley_m = 0.0) {
         MapGrid grid;
         grid.cols = grid.rows = 60;
         grid.west_m = kCentre_x_m - 600.0;
         grid.north_m = kCentre_y_m + 600.0;
         grid.cell_m = 20.0;
         grid.crs_wkt = gis::parse_crs("EPSG:32611", "test").wkt;
-        write_band(folder_ / "dem.tif", grid, "m", [](double, double) { return kGround_m; });
+        write_band(folder_ / "dem.tif", grid, "m", [&](double, double y_m) {
+            return std::abs(y_m - kCentre_y_m) < 200.0 ? kGround_m : kGround_m - valley_m;
+        });
         write_band(folder_ / "heat.tif", grid, "W m-2", [](double, double) { return 0.0; }, {{"time_s", "0"}});
         write_narrow_camera(folder_ / "camera.yaml");
         // Map north and true north differ by 2 degrees here; the middle of the view stays on the level ground.
@@ -94,6 +97,20 @@ TEST(Air, TakesTheHeightOfTheGround) {
     const double expected = mean_of(high, 3, high.path_thermal);
     EXPECT_NEAR(look.term("LWIR", "path_thermal") / expected, 1.0, 0.01);
     EXPECT_GT(mean_of(sea, 3, sea.path_thermal), 2.0 * expected);  // the moist lowest kilometres are not there
+}
+
+// A ridge above a wide valley: the air over the ridge is that of a sensor this high above ground this high, whatever the mean is.
+TEST(Air, FollowsTheReliefOfTheScene) {
+    const Look level("2017-08-09T22:00:00Z", 0.0), low("2017-08-09T22:00:00Z", 0.0, "", 300.0),
+        high("2017-08-09T22:00:00Z", 0.0, "", 900.0);
+    for (const char* term : {"path_thermal", "path_solar"}) {
+        for (const auto& band : kNarrowBands) {
+            if (!(level.term(band.id, term) > 0.01)) continue;  // next to nothing of this kind in this band
+            EXPECT_NEAR(low.term(band.id, term) / level.term(band.id, term), 1.0, 0.01) << band.id << " " << term;
+            EXPECT_NEAR(high.term(band.id, term) / level.term(band.id, term), 1.0, 0.01) << band.id << " " << term;
+        }
+    }
+    EXPECT_NEAR(high.term("LWIR", "ground_emission") / level.term("LWIR", "ground_emission"), 1.0, 0.002);
 }
 
 // E' = E_dif + (E_dir mu + E_dif) A S / (1 - A S) lights the ground, A (E_dir mu C + E') t_d / pi joins the view.

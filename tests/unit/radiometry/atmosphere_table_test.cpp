@@ -63,15 +63,18 @@ TEST(AtmosphereTable, CheckFindsWhatIsWrong) {
 
 TEST(AtmosphereFiles, NeededFilesBracketTheConditions) {
     using Names = std::vector<std::string>;
-    const auto needed = [](const std::string& model, double visibility_km, double ground_m) {
+    const auto needed = [](const std::string& model, double visibility_km, ElevationRange ground) {
         Names names;
-        for (const auto& file : needed_files(model, visibility_km, ground_m))
+        for (const auto& file : needed_files(model, visibility_km, ground))
             names.push_back(file.file.substr(9, file.file.size() - 12));  // without "lowtran7_" and ".nc"
         return names;
     };
     EXPECT_EQ(needed("midlatitude_summer", 23.0, 0.0), (Names{"midlatitude_summer_rural23_ground0"}));
     EXPECT_EQ(needed("midlatitude_summer", 23.0, 1400.0),
               (Names{"midlatitude_summer_rural23_ground1", "midlatitude_summer_rural23_ground2"}));
+    EXPECT_EQ(needed("midlatitude_summer", 23.0, {900.0, 2000.0}),
+              (Names{"midlatitude_summer_rural23_ground0", "midlatitude_summer_rural23_ground1",
+                     "midlatitude_summer_rural23_ground2"}));
     EXPECT_EQ(needed("us_standard_1976", 10.0, 0.0),
               (Names{"us_standard_1976_rural23_ground0", "us_standard_1976_rural5_ground0"}));
     EXPECT_EQ(

@@ -32,8 +32,8 @@ inline std::vector<double> read_atmosphere(const std::string& file, const std::s
     return gis::read_netcdf_variable(source_folder() / "data/atmosphere" / file, variable).values;
 }
 
-inline AtmosphereSet load_atmosphere(const std::string& model, double visibility_km = 23.0, double ground_m = 0.0) {
-    return make_atmosphere_set(model, visibility_km, ground_m, read_atmosphere);
+inline AtmosphereSet load_atmosphere(const std::string& model, double visibility_km = 23.0, ElevationRange ground = 0.0) {
+    return make_atmosphere_set(model, visibility_km, ground, read_atmosphere);
 }
 
 inline AtmosphereTable load_table(const std::string& file) {

@@ -26,10 +26,10 @@ AtmosphereConditions conditions(double altitude_m, double sun_deg) {
     return c;
 }
 
-ViewAtmosphere::View view_of(const ViewAtmosphere& atmosphere, double view_deg, double azimuth_deg) {
+ViewAtmosphere::View view_of(const ViewAtmosphere& atmosphere, double view_deg, double azimuth_deg, double ground_m = 0.0) {
     ViewAtmosphere::View view;
     view.resize(atmosphere.lambda_count());
-    atmosphere.at(view_deg * kDegree_rad, azimuth_deg * kDegree_rad, view);
+    atmosphere.at(view_deg * kDegree_rad, azimuth_deg * kDegree_rad, ground_m, view);
     return view;
 }
 
@@ -94,6 +94,46 @@ TEST(ViewAtmosphere, OpaqueAirFollowsBeersLawBetweenItsNodes) {
     }
     std::printf("transmittance between view nodes, down to 1e-9: largest relative error %.1e\n", largest);
     EXPECT_LT(largest, 1e-3);
+}
+
+// A sensor 4 km above sea level over ground from 1 to 3 km: at heights between the nodes the path is that of a table made for
+// this very ground.
+TEST(ViewAtmosphere, FollowsTheHeightOfTheGround) {
+    const AtmosphereSet set = load_atmosphere("midlatitude_summer", 23.0, {1000.0, 3000.0});
+    const auto grid = wasp_grid();
+    auto c = conditions(2000.0, 40.0);
+    c.ground_elevation_m = 2000.0;
+    std::vector<double> heights_m;
+    for (double h = 1000.0; h >= -1000.0; h -= 250.0) heights_m.push_back(h);
+    const auto atmosphere = make_view_atmosphere(set, c, grid, constant(grid, 0.2), heights_m);
+    double tau = 0.0, thermal = 0.0, solar = 0.0;  // largest errors
+    for (const double ground_m : {900.0, 700.0, 330.0, 0.0, -110.0, -500.0, -930.0}) {
+        auto there = c;
+        there.ground_elevation_m += ground_m;
+        there.sensor_altitude_agl_m -= ground_m;
+        const auto exact = view_of(make_view_atmosphere(set, there, grid, constant(grid, 0.2)), 20.0, 70.0);
+        const auto view = view_of(atmosphere, 20.0, 70.0, ground_m);
+        for (std::size_t l = 0; l < view.transmittance.size(); ++l) {
+            const double B = planck_radiance(grid.lambda_um[l], 300.0);
+            tau = std::max(tau, std::abs(static_cast<double>(view.transmittance[l] - exact.transmittance[l])));
+            thermal = std::max(thermal, std::abs(static_cast<double>(view.path_thermal[l] - exact.path_thermal[l])) / B);
+            if (grid.lambda_um[l] < 2.5)
+                solar = std::max(solar, std::abs(static_cast<double>(view.path_solar[l] / exact.path_solar[l]) - 1.0));
+        }
+    }
+    std::printf(
+        "ground between nodes 250 m apart: transmittance %.1e, path thermal %.1e of B(300 K), path solar below 2.5 um "
+        "%.1e\n",
+        tau, thermal, solar);
+    EXPECT_LT(tau, 4e-3);
+    EXPECT_LT(thermal, 4e-3);
+    EXPECT_LT(solar, 1.5e-2);
+    // Illumination stays that of the mean ground.
+    const auto level = make_view_atmosphere(set, c, grid, constant(grid, 0.2));
+    EXPECT_EQ(atmosphere.direct_normal_irradiance_W_m2_um, level.direct_normal_irradiance_W_m2_um);
+    // Outside the heights the nearest holds.
+    EXPECT_EQ(view_of(atmosphere, 20.0, 70.0, 5000.0).path_thermal, view_of(atmosphere, 20.0, 70.0, 1000.0).path_thermal);
+    EXPECT_THROW((void)make_view_atmosphere(set, c, grid, constant(grid, 0.2), std::vector{0.0, 100.0}), Error);
 }
 
 TEST(ViewAtmosphere, IlluminationAtOneWavelength) {
