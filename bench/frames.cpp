@@ -1,7 +1,7 @@
 // Whole frames of scene W0, printed as rows of one markdown table (scripts/bench.sh prints its head):
 //   | case | measured | compared with | ratio | limits | condition on the result |
 // Every figure is that of a process of its own; figures with a ratio are medians of alternate runs.
-//   bench_frames [--pairs N] [--quick]
+//   bench_frames [--pairs N] [--only WORDS]      WORDS: part of a name in the first column, such as "B2 reflected flame light, 3"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -86,16 +86,18 @@ std::string condition(double mean, double expected, double relative) {
                        holds ? "ok" : "FAILED");
 }
 
-void frames_against_baseline(int pairs) {
+bool is_wanted(std::string_view name, std::string_view only) { return name.find(only) != std::string_view::npos; }
+
+void frames_against_baseline(int pairs, std::string_view only) {
     for (const bool light : {false, true}) {
         for (const int bands : {3, 36, 224}) {
-            if (light && bands == 36) continue;
+            const std::string name = fmt::format("{} {} bands", light ? "B2 reflected flame light," : "B1 direct,", bands);
+            if ((light && bands == 36) || !is_wanted(name, only)) continue;
             const Pair p = measure_alternately(
                 [&] {
                     return render_frame({bands, light, {}, {}});
                 },
                 [&] { return baseline_frame(bands, light); }, pairs);
-            const std::string name = fmt::format("{} {} bands", light ? "B2 reflected flame light," : "B1 direct,", bands);
             row(name + ", end to end, 1 thread", fmt::format("{:.3f} s CPU, {:.0f} MB", p.first.cpu_s, p.first.peak_MB),
                 fmt::format("baseline {:.3f} s", p.second.cpu_s), fmt::format("{:.2f}", p.cpu_ratio),
                 light          ? "P 1.5, G 0.5"
@@ -118,12 +120,14 @@ void frames_against_baseline(int pairs) {
 }
 
 /// Growth with one quantity at a time: ratio of CPU seconds to the plain frame of 36 bands.
-void growth(int pairs) {
+void growth(int pairs, std::string_view only) {
     const Frame plain{36, false, {}, {}};
     const auto against_plain = [&](std::string_view what, const Frame& changed, std::string_view limit) {
+        const std::string name = fmt::format("B3 {}", what);
+        if (!is_wanted(name, only)) return Pair{};
         const Pair p =
             measure_alternately([&] { return render_frame(changed); }, [&] { return render_frame(plain); }, pairs);
-        row(fmt::format("B3 {}", what), fmt::format("{:.3f} s CPU", p.first.cpu_s),
+        row(name, fmt::format("{:.3f} s CPU", p.first.cpu_s),
             fmt::format("plain {:.3f} s", p.second.cpu_s), fmt::format("{:.2f}", p.cpu_ratio), limit, "");
         return p;
     };
@@ -145,6 +149,7 @@ void growth(int pairs) {
     Frame many = plain;
     many.bands = 224;
     const Pair p = against_plain("bands 36 to 224", many, "<= 6.2 (linear)");
+    if (p.first.results.empty()) return;
     const double allowed_MB = p.first.results[kInput_MB] + 1.2 * p.first.results[kOutput_MB] + 16.0;
     row("B3 memory, 224 bands", fmt::format("{:.0f} MB", p.first.peak_MB),
         fmt::format("input {:.0f} + 1.2 x output {:.0f} + program 16 MB", p.first.results[kInput_MB],
@@ -157,10 +162,12 @@ void growth(int pairs) {
 
 int main(int argc, char** argv) {
     int pairs = 3;
-    for (int i = 1; i < argc; ++i) {
-        if (std::string_view(argv[i]) == "--pairs" && i + 1 < argc) pairs = std::atoi(argv[++i]);
+    std::string_view only;
+    for (int i = 1; i + 1 < argc; ++i) {
+        if (std::string_view(argv[i]) == "--pairs") pairs = std::atoi(argv[i + 1]);
+        if (std::string_view(argv[i]) == "--only") only = argv[i + 1];
     }
-    pyroscene::bench::frames_against_baseline(pairs);
-    pyroscene::bench::growth(pairs);
+    pyroscene::bench::frames_against_baseline(pairs, only);
+    pyroscene::bench::growth(pairs, only);
     return 0;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <new>
 #include <utility>
@@ -7,16 +9,26 @@
 
 namespace pyroscene {
 
-/// std::allocator whose elements resize() leaves uninitialised.
+/// Memory for `bytes` bytes, uninitialised; from 4 MiB on in huge pages where Linux grants them (transparent huge pages "always"
+/// or "madvise"): a large array otherwise costs more in page faults than in the arithmetic that fills it. Throws
+/// std::bad_alloc. Give back with free_pages() and the same size.
+void* allocate_pages(std::size_t bytes);
+void free_pages(void* at, std::size_t bytes) noexcept;
+
+/// Allocator of large arrays whose elements resize() leaves uninitialised.
 template <class T>
-struct UninitialisedAllocator : std::allocator<T> {
-    UninitialisedAllocator() = default;
+struct PageAllocator {
+    using value_type = T;
+
+    PageAllocator() = default;
     template <class U>
-    UninitialisedAllocator(const UninitialisedAllocator<U>&) noexcept {}
-    template <class U>
-    struct rebind {
-        using other = UninitialisedAllocator<U>;
-    };
+    PageAllocator(const PageAllocator<U>&) noexcept {}
+
+    T* allocate(std::size_t n) {
+        if (n > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_array_new_length();
+        return static_cast<T*>(allocate_pages(n * sizeof(T)));
+    }
+    void deallocate(T* at, std::size_t n) noexcept { free_pages(at, n * sizeof(T)); }
 
     template <class U>
     void construct(U* at) noexcept {
@@ -26,13 +38,13 @@ struct UninitialisedAllocator : std::allocator<T> {
     void construct(U* at, Args&&... args) {
         ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
     }
+
+    friend bool operator==(const PageAllocator&, const PageAllocator&) { return true; }
 };
 
 /// A vector for large arrays that several threads fill: resize(n) touches nothing, so that each page is first written, and
 /// paid for, by the thread that fills it. Give a value (`resize(n, 0.0F)`) where not every element is written.
-/// Pages stay small on purpose: planes of an image lie a power of two times a few kilobytes apart, and in one huge page
-/// the same pixel of all of them would fall into one set of the second-level cache (measured: two times slower).
 template <class T>
-using Buffer = std::vector<T, UninitialisedAllocator<T>>;
+using Buffer = std::vector<T, PageAllocator<T>>;
 
 }  // namespace pyroscene
