@@ -16,6 +16,36 @@ namespace {
 
 constexpr int kEdge = fire::FlameField::kBrickEdge;
 
+/// Nodes along an axis from which smoke is marched towards the flames.
+bool is_kept(int at, int last) { return at % 2 == 0 || at == last; }
+
+/// The voxels that a ray from a node crosses, relative to the voxel above the node: the same for all nodes.
+struct NodeStep {
+    int i, j, k;
+    float length_m;
+};
+
+/// From a node along `direction`, up or down through `layers` layers and at most `columns` columns aside.
+std::vector<NodeStep> steps_from_node(const fire::VoxelGrid& g, Vec3 direction, int layers, int columns) {
+    std::vector<NodeStep> steps;
+    if (direction.z == 0.0) return steps;
+    const double ray_m = layers * g.dz_m / std::abs(direction.z);
+    const Vec3 way = ray_m * direction;
+    AxisWalk z(0.0, way.z / g.dz_m);
+    z.enter(0.0, 1.0, way.z > 0.0 ? 0 : -1, way.z > 0.0 ? 0 : -1);
+    walk_cells(AxisWalk(0.5, 0.5 + way.x / g.dx_m), AxisWalk(0.5, 0.5 + way.y / g.dy_m), 0.0, 1.0, 1.0,
+               {-columns, -columns, columns + 1, columns + 1}, [&](int i, int j, double from, double to) {
+                   for (double at = from; at < to && std::abs(z.cell) <= layers;) {
+                       const double next = z.leaves(1.0), until = std::min(next, to);
+                       if (until > at) steps.push_back({i, j, z.cell, static_cast<float>((until - at) * ray_m)});
+                       if (next <= to) z.cell += z.step;
+                       at = std::max(at, until);
+                   }
+                   return true;
+               });
+    return steps;
+}
+
 }  // namespace
 
 SmokeLight::SmokeLight(const RenderScene& scene, const SceneTables& tables, const FlameColumns& plume)
@@ -149,47 +179,88 @@ void SmokeLight::add_front(const SceneTables& tables, double flame_area_m2, std:
 
 void SmokeLight::fill_nodes() {
     const fire::VoxelGrid& g = scene_->plume->grid;
-    nodes_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_ + 1), Node{});
+    const std::size_t count = static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_ + 1);
+    nodes_.assign(count, Node{});
     const int i0 = static_cast<int>(std::lround((corner_m_.x - g.corner_m.x) / g.dx_m)),
               j0 = static_cast<int>(std::lround((corner_m_.y - g.corner_m.y) / g.dy_m)),
               k0 = static_cast<int>(std::lround((corner_m_.z - g.corner_m.z) / g.dz_m));
-    // Smoke above each node by sums down the columns; then below; a node without smoke around it is never asked for.
-    std::vector<std::uint8_t> filled(nodes_.size(), 0);
+    // Smoke above each node by sums down the columns; then below.
+    std::vector<float> fill(count, 0.0F);
     tbb::parallel_for(0, ny_, [&](int j) {
         for (int i = 0; i < nx_; ++i) {
             for (int k = nz_ - 1; k >= 0; --k) {
-                const float fill = voxel_at(*scene_->plume, i0 + i, j0 + j, k0 + k).fill;
-                filled[node_index(i, j, k)] = fill > 0.0F ? 1 : 0;
+                const float here = fill[node_index(i, j, k)] = voxel_at(*scene_->plume, i0 + i, j0 + j, k0 + k).fill;
                 nodes_[node_index(i, j, k)][Above] =
-                    nodes_[node_index(i, j, k + 1)][Above] + fill * static_cast<float>(g.dz_m);
+                    nodes_[node_index(i, j, k + 1)][Above] + here * static_cast<float>(g.dz_m);
             }
             const float all = nodes_[node_index(i, j, 0)][Above];
             for (int k = 0; k <= nz_; ++k) nodes_[node_index(i, j, k)][Below] = all - nodes_[node_index(i, j, k)][Above];
         }
     });
-    const auto near_smoke = [&](int i, int j, int k) {
-        for (int dk = -1; dk <= 0; ++dk)
-            for (int dj = -1; dj <= 1; ++dj)
-                for (int di = -1; di <= 1; ++di) {
-                    const int ii = i + di, jj = j + dj, kk = k + dk;
-                    if (ii >= 0 && ii < nx_ && jj >= 0 && jj < ny_ && kk >= 0 && kk < nz_ &&
-                        filled[node_index(ii, jj, kk)] != 0)
-                        return true;
-                }
-        return false;
-    };
+    if (scene_->to_sun.z > 0.0) {
+        add_sun_columns(fill, scene_->to_sun, ToSun);
+        if (diffuse_) add_sun_columns(fill, -scene_->to_sun, PastSun);
+    }
     tbb::parallel_for(0, (nz_ + 1) * ny_, [&](int row) {
         const int k = row / ny_, j = row % ny_;
+        const bool kept = is_kept(k, nz_) && is_kept(j, ny_ - 1);
         for (int i = 0; i < nx_; ++i) {
-            if (near_smoke(i, j, k))
-                fill_node(corner_m_ + Vec3{(i + 0.5) * g.dx_m, (j + 0.5) * g.dy_m, k * g.dz_m}, nodes_[node_index(i, j, k)]);
+            const bool marches = kept && is_kept(i, nx_ - 1);
+            if (!is_near_smoke(fill, i, j, k, marches ? 2 : 1)) continue;
+            const Vec3 at_m = corner_m_ + Vec3{(i + 0.5) * g.dx_m, (j + 0.5) * g.dy_m, k * g.dz_m};
+            light_by_flames(at_m, marches, nodes_[node_index(i, j, k)]);
         }
+    });
+    between_marches();
+}
+
+/// Any smoke in the voxels around a node; without it the node is never asked for.
+bool SmokeLight::is_near_smoke(const std::vector<float>& fill, int i, int j, int k, int reach) const noexcept {
+    for (int kk = std::max(k - reach, 0); kk <= std::min(k + reach - 1, nz_ - 1); ++kk)
+        for (int jj = std::max(j - reach, 0); jj <= std::min(j + reach, ny_ - 1); ++jj)
+            for (int ii = std::max(i - reach, 0); ii <= std::min(i + reach, nx_ - 1); ++ii)
+                if (fill[node_index(ii, jj, kk)] > 0.0F) return true;
+    return false;
+}
+
+/// Smoke towards the flames is marched at every second node along each axis: linear between them, axis by axis.
+void SmokeLight::between_marches() {
+    const auto fill_in = [&](int i, int j, int k, int di, int dj, int dk) {
+        nodes_[node_index(i, j, k)][ToFlame] =
+            0.5F * (nodes_[node_index(i - di, j - dj, k - dk)][ToFlame] + nodes_[node_index(i + di, j + dj, k + dk)][ToFlame]);
+    };
+    const auto fill_plane = [&](int k) {
+        for (int j = 0; j < ny_; ++j)
+            for (int i = 1; is_kept(j, ny_ - 1) && i < nx_ - 1; i += 2) fill_in(i, j, k, 1, 0, 0);
+        for (int j = 1; j < ny_ - 1; j += 2)
+            for (int i = 0; i < nx_; ++i) fill_in(i, j, k, 0, 1, 0);
+    };
+    tbb::parallel_for(0, nz_ / 2 + 1, [&](int half) { fill_plane(2 * half); });
+    if (nz_ % 2 == 1) fill_plane(nz_);
+    tbb::parallel_for(0, nz_ / 2, [&](int half) {
+        for (int j = 0; 2 * half + 1 < nz_ && j < ny_; ++j)
+            for (int i = 0; i < nx_; ++i) fill_in(i, j, 2 * half + 1, 0, 0, 1);
     });
 }
 
-void SmokeLight::fill_node(Vec3 at_m, Node& node) const {
-    node[ToSun] = static_cast<float>(smoke_to_sun(*plume_, at_m, scene_->to_sun));
-    if (diffuse_) node[PastSun] = static_cast<float>(smoke_past_sun(*plume_, at_m, scene_->to_sun));
+/// Smoke along one direction from every node: all rays cross the same voxels relative to their nodes.
+void SmokeLight::add_sun_columns(const std::vector<float>& fill, Vec3 direction, Quantity into) {
+    const auto steps = steps_from_node(scene_->plume->grid, direction, nz_, std::max(nx_, ny_));
+    tbb::parallel_for(0, (nz_ + 1) * ny_, [&](int row) {
+        const int k = row / ny_, j = row % ny_;
+        std::vector<float> sum(static_cast<std::size_t>(nx_), 0.0F);
+        for (const NodeStep& step : steps) {
+            const int jj = j + step.j, kk = k + step.k;
+            if (jj < 0 || jj >= ny_ || kk < 0 || kk >= nz_) continue;
+            const int begin = std::max(0, -step.i), end = std::min(nx_, nx_ - step.i);
+            const float* from = fill.data() + node_index(0, jj, kk);
+            for (int i = begin; i < end; ++i) sum[static_cast<std::size_t>(i)] += step.length_m * from[i + step.i];
+        }
+        for (int i = 0; i < nx_; ++i) nodes_[node_index(i, j, k)][into] = sum[static_cast<std::size_t>(i)];
+    });
+}
+
+void SmokeLight::light_by_flames(Vec3 at_m, bool marches, Node& node) const {
     const FlameSources sources{static_cast<int>(source_weight_.size()),
                                source_x_m_.data(),
                                source_y_m_.data(),
@@ -203,9 +274,8 @@ void SmokeLight::fill_node(Vec3 at_m, Node& node) const {
     const float sum = light.per_m2;
     if (!(sum > 0.0F)) return;
     const Vec3 to_flame = Vec3{light.place_m[0] / sum, light.place_m[1] / sum, light.place_m[2] / sum} - at_m;
-    const double distance_m = length(to_flame);
     node[FlamePerM2] = sum;
-    node[ToFlame] = distance_m > 0.0 ? static_cast<float>(smoke_between(*plume_, at_m, at_m + to_flame)) : 0.0F;
+    if (marches && length(to_flame) > 0.0) node[ToFlame] = static_cast<float>(smoke_between(*plume_, at_m, at_m + to_flame));
     node[FlameX] = light.way[0] / sum;
     node[FlameY] = light.way[1] / sum;
     node[FlameZ] = light.way[2] / sum;

@@ -46,7 +46,10 @@ private:
     void add_front(const SceneTables& tables, double flame_area_m2, std::vector<float>& emission,
                    std::vector<Source>& sources);
     void fill_nodes();
-    void fill_node(Vec3 at_m, Node& node) const;
+    [[nodiscard]] bool is_near_smoke(const std::vector<float>& fill, int i, int j, int k, int reach) const noexcept;
+    void add_sun_columns(const std::vector<float>& fill, Vec3 direction, Quantity into);
+    void light_by_flames(Vec3 at_m, bool marches, Node& node) const;
+    void between_marches();
     [[nodiscard]] std::size_t node_index(int i, int j, int k) const noexcept {
         return (static_cast<std::size_t>(k) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(j)) *
                    static_cast<std::size_t>(nx_) +

@@ -13,10 +13,7 @@ namespace {
 
 constexpr double kFarthestSun_m = 1e5;
 
-double height_m(const FlameColumns& plume, std::size_t end) {
-    return plume.grid().corner_m.z + plume.height_range()[end] * plume.grid().dz_m;
-}
-double top_m(const FlameColumns& plume) { return height_m(plume, 1); }
+double top_m(const FlameColumns& plume) { return plume.grid().corner_m.z + plume.height_range()[1] * plume.grid().dz_m; }
 
 }  // namespace
 
@@ -33,12 +30,6 @@ double smoke_to_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun) {
     const double climb_m = top_m(plume) - from_m.z;
     if (!(to_sun.z > 0.0 && climb_m > 0.0)) return 0.0;
     return smoke_between(plume, from_m, from_m + std::min(climb_m / to_sun.z, kFarthestSun_m) * to_sun);
-}
-
-double smoke_past_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun) {
-    const double drop_m = from_m.z - height_m(plume, 0);
-    if (!(to_sun.z > 0.0 && drop_m > 0.0)) return 0.0;
-    return smoke_between(plume, from_m, from_m - std::min(drop_m / to_sun.z, kFarthestSun_m) * to_sun);
 }
 
 SmokeShadow::SmokeShadow(const RenderScene& scene)

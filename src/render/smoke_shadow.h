@@ -8,10 +8,9 @@
 
 namespace pyroscene::render {
 
-/// Fill x length of smoke between two points, from a point towards the sun and from it away from the sun (0 at night).
+/// Fill x length of smoke between two points, and from a point towards the sun (0 at night).
 double smoke_between(const FlameColumns& plume, Vec3 from_m, Vec3 to_m);
 double smoke_to_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun);
-double smoke_past_sun(const FlameColumns& plume, Vec3 from_m, Vec3 to_sun);
 
 /// Smoke between a place on the ground and the sun, and straight above it: fill x length, and the mean temperature above.
 struct SmokeShade {
