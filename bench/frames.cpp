@@ -127,8 +127,8 @@ void growth(int pairs, std::string_view only) {
         if (!is_wanted(name, only)) return Pair{};
         const Pair p =
             measure_alternately([&] { return render_frame(changed); }, [&] { return render_frame(plain); }, pairs);
-        row(name, fmt::format("{:.3f} s CPU", p.first.cpu_s),
-            fmt::format("plain {:.3f} s", p.second.cpu_s), fmt::format("{:.2f}", p.cpu_ratio), limit, "");
+        row(name, fmt::format("{:.3f} s CPU", p.first.cpu_s), fmt::format("plain {:.3f} s", p.second.cpu_s),
+            fmt::format("{:.2f}", p.cpu_ratio), limit, "");
         return p;
     };
     Frame rays = plain;

@@ -179,7 +179,8 @@ void SmokeLight::add_front(const SceneTables& tables, double flame_area_m2, std:
 
 void SmokeLight::fill_nodes() {
     const fire::VoxelGrid& g = scene_->plume->grid;
-    const std::size_t count = static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_ + 1);
+    const std::size_t count =
+        static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) * static_cast<std::size_t>(nz_ + 1);
     nodes_.assign(count, Node{});
     const int i0 = static_cast<int>(std::lround((corner_m_.x - g.corner_m.x) / g.dx_m)),
               j0 = static_cast<int>(std::lround((corner_m_.y - g.corner_m.y) / g.dy_m)),
@@ -226,8 +227,8 @@ bool SmokeLight::is_near_smoke(const std::vector<float>& fill, int i, int j, int
 /// Smoke towards the flames is marched at every second node along each axis: linear between them, axis by axis.
 void SmokeLight::between_marches() {
     const auto fill_in = [&](int i, int j, int k, int di, int dj, int dk) {
-        nodes_[node_index(i, j, k)][ToFlame] =
-            0.5F * (nodes_[node_index(i - di, j - dj, k - dk)][ToFlame] + nodes_[node_index(i + di, j + dj, k + dk)][ToFlame]);
+        nodes_[node_index(i, j, k)][ToFlame] = 0.5F * (nodes_[node_index(i - di, j - dj, k - dk)][ToFlame] +
+                                                       nodes_[node_index(i + di, j + dj, k + dk)][ToFlame]);
     };
     const auto fill_plane = [&](int k) {
         for (int j = 0; j < ny_; ++j)
