@@ -98,6 +98,24 @@ std::string Arguments::text(const std::string& name) const {
     return it->second;
 }
 double Arguments::number(const std::string& name) const { return parse_number(text(name), "--" + name); }
+double Arguments::positive(const std::string& name) const {
+    const double value = number(name);
+    if (!(value > 0.0) || !std::isfinite(value))
+        throw input_error("--" + name, fmt::format("found {}, expected more than 0", value));
+    return value;
+}
+double Arguments::not_negative(const std::string& name) const {
+    const double value = number(name);
+    if (!(value >= 0.0) || !std::isfinite(value))
+        throw input_error("--" + name, fmt::format("found {}, expected at least 0", value));
+    return value;
+}
+double Arguments::within(const std::string& name, double lowest, double highest) const {
+    const double value = number(name);
+    if (!(value >= lowest && value <= highest))
+        throw input_error("--" + name, fmt::format("found {}, expected {} to {}", value, lowest, highest));
+    return value;
+}
 
 std::string calc_help() {
     std::string help;

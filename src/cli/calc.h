@@ -15,6 +15,10 @@ public:
     [[nodiscard]] bool has(const std::string& name) const;
     /// Throws an input error naming the option when it is missing or no number.
     [[nodiscard]] double number(const std::string& name) const;
+    /// The same, and refuses what is not finite and above 0 (at least 0; within a range).
+    [[nodiscard]] double positive(const std::string& name) const;
+    [[nodiscard]] double not_negative(const std::string& name) const;
+    [[nodiscard]] double within(const std::string& name, double lowest, double highest) const;
     [[nodiscard]] std::string text(const std::string& name) const;
 
 private:

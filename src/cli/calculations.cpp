@@ -1,5 +1,7 @@
 #include <cmath>
+#include <iostream>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,11 +63,11 @@ const radiometry::AtmosphereSet& atmosphere_set(const std::string& model, double
 radiometry::AtmospherePoint atmosphere_point(const Arguments& a) {
     radiometry::AtmospherePoint point;
     auto& conditions = point.conditions;
-    conditions.sensor_altitude_agl_m = a.number("altitude_m");
+    conditions.sensor_altitude_agl_m = a.not_negative("altitude_m");
     conditions.ground_elevation_m = a.number("ground_elevation_m");
-    conditions.visibility_km = a.number("visibility_km");
-    conditions.sun_zenith_rad = a.number("sun_zenith_deg") * kDegree_rad;
-    point.view_zenith_rad = a.number("view_zenith_deg") * kDegree_rad;
+    conditions.visibility_km = a.positive("visibility_km");
+    conditions.sun_zenith_rad = a.within("sun_zenith_deg", 0.0, 180.0) * kDegree_rad;
+    point.view_zenith_rad = a.within("view_zenith_deg", 0.0, 90.0) * kDegree_rad;
     point.relative_azimuth_rad = a.number("relative_azimuth_deg") * kDegree_rad;
     return point;
 }
@@ -74,8 +76,18 @@ const radiometry::AtmosphereSet& atmosphere_set(const Arguments& a) {
     return atmosphere_set(a.text("model"), a.number("visibility_km"), a.number("ground_elevation_m"));
 }
 
+/// Says, once for all rows of a table, where the tables end before what was asked for.
+void warn_beyond_tables(const radiometry::AtmosphereSet& set, const radiometry::AtmospherePoint& point) {
+    static std::set<std::string> said;
+    for (const auto& warning : radiometry::atmosphere_warnings(set, point))
+        if (said.insert(warning).second) std::cerr << "warning: atmosphere: " << warning << '\n';
+}
+
 std::vector<double> atmosphere(const Arguments& a) {
-    const auto t = radiometry::evaluate_at(atmosphere_set(a), atmosphere_point(a), a.number("wavelength_um"));
+    const auto& set = atmosphere_set(a);
+    const auto point = atmosphere_point(a);
+    warn_beyond_tables(set, point);
+    const auto t = radiometry::evaluate_at(set, point, a.positive("wavelength_um"));
     return {t.transmittance[0], t.path_thermal[0], t.path_solar[0],      t.direct_normal[0],
             t.diffuse[0],       t.thermal_sky[0],  t.spherical_albedo[0]};
 }
@@ -126,7 +138,7 @@ std::vector<double> scar_temperature(const Arguments& a) {
     if (model->terms == 1 && a.has("amplitude2_K")) throw input_error("--amplitude2_K", "single_exponential has one term");
     if (!(curve.time_constant1_s > 0.0 && curve.time_constant2_s > 0.0))
         throw input_error("--time_constant1_s, --time_constant2_s", "must be above 0");
-    return {fire::scar_temperature_K(curve, a.number("time_s"))};
+    return {fire::scar_temperature_K(curve, a.not_negative("time_s"))};
 }
 
 }  // namespace
@@ -138,7 +150,7 @@ const std::vector<Calculation>& calculations() {
          {{"wavelength_um", {}}, {"temperature_K", {}}},
          {"radiance_W_m2_sr_um"},
          [](const Arguments& a) {
-             return std::vector{radiometry::planck_radiance(a.number("wavelength_um"), a.number("temperature_K"))};
+             return std::vector{radiometry::planck_radiance(a.positive("wavelength_um"), a.not_negative("temperature_K"))};
          }},
         {"brightness-temperature",
          "temperature of the blackbody with a spectral radiance",
@@ -146,14 +158,14 @@ const std::vector<Calculation>& calculations() {
          {"temperature_K"},
          [](const Arguments& a) {
              return std::vector{
-                 radiometry::brightness_temperature(a.number("wavelength_um"), a.number("radiance_W_m2_sr_um"))};
+                 radiometry::brightness_temperature(a.positive("wavelength_um"), a.number("radiance_W_m2_sr_um"))};
          }},
         {"band-radiance",
          "response-weighted mean radiance of a blackbody in a sensor band or a boxcar",
          {{"sensor", {}, true}, {"band", {}, true}, {"lower_um", {}, true}, {"upper_um", {}, true}, {"temperature_K", {}}},
          {"radiance_W_m2_sr_um"},
          [](const Arguments& a) {
-             return std::vector{radiometry::band_mean_radiance(a.number("temperature_K"), response_of(a))};
+             return std::vector{radiometry::band_mean_radiance(a.not_negative("temperature_K"), response_of(a))};
          }},
         {"band-temperature",
          "temperature of the blackbody with a band radiance",

@@ -41,35 +41,29 @@ double number_or(const Arguments& a, const std::string& name, double otherwise) 
     return a.has(name) ? a.number(name) : otherwise;
 }
 
-double above_zero(const Arguments& a, const std::string& name) {
-    const double value = a.number(name);
-    if (!(value > 0.0)) throw input_error("--" + name, fmt::format("is {}, must be above 0", value));
-    return value;
-}
-
 /// Given, or heat flux x area of the cell.
 double heat_release_W(const Arguments& a) {
-    if (a.has("heat_release_W") || !a.has("cell_area_m2")) return a.number("heat_release_W");
-    return a.number("heat_flux_W_m2") * above_zero(a, "cell_area_m2");
+    if (a.has("heat_release_W") || !a.has("cell_area_m2")) return a.not_negative("heat_release_W");
+    return a.not_negative("heat_flux_W_m2") * a.positive("cell_area_m2");
 }
 
 /// Given, or of the circle with the area of the cell.
 double diameter_m(const Arguments& a) {
-    if (a.has("diameter_m") || !a.has("cell_area_m2")) return a.number("diameter_m");
-    return std::sqrt(4.0 / kPi * above_zero(a, "cell_area_m2"));
+    if (a.has("diameter_m") || !a.has("cell_area_m2")) return a.positive("diameter_m");
+    return std::sqrt(4.0 / kPi * a.positive("cell_area_m2"));
 }
 
 /// Given, or fireline intensity / heat flux.
 double front_depth_m(const Arguments& a) {
-    if (a.has("front_depth_m") || !a.has("heat_flux_W_m2")) return a.number("front_depth_m");
-    return 1e3 * a.number("fireline_intensity_kW_m") / above_zero(a, "heat_flux_W_m2");
+    if (a.has("front_depth_m") || !a.has("heat_flux_W_m2")) return a.positive("front_depth_m");
+    return 1e3 * a.not_negative("fireline_intensity_kW_m") / a.positive("heat_flux_W_m2");
 }
 
 double plume_coefficient(const Arguments& a) {
-    if (a.has("plume_coefficient_m_kW")) return a.number("plume_coefficient_m_kW");
-    return fire::plume_coefficient_m_kW(
-        above_zero(a, "air_temperature_K"), above_zero(a, "air_density_kg_m3"), above_zero(a, "air_heat_capacity_J_kg_K"),
-        above_zero(a, "heat_of_combustion_J_kg") / above_zero(a, "air_fuel_ratio"), physics(a));
+    if (a.has("plume_coefficient_m_kW")) return a.positive("plume_coefficient_m_kW");
+    return fire::plume_coefficient_m_kW(a.positive("air_temperature_K"), a.positive("air_density_kg_m3"),
+                                        a.positive("air_heat_capacity_J_kg_K"),
+                                        a.positive("heat_of_combustion_J_kg") / a.positive("air_fuel_ratio"), physics(a));
 }
 
 std::vector<double> flame_height(const Arguments& a) {
@@ -77,9 +71,9 @@ std::vector<double> flame_height(const Arguments& a) {
     fire::FlameHeightInputs in;
     switch (method.driver) {
         case fire::FlameDriver::HeatFlux:
-            in.heat_flux_W_m2 = a.number("heat_flux_W_m2");
-            in.alpha = a.number("alpha");
-            in.volumetric_heat_release_W_m3 = above_zero(a, "volumetric_heat_release_W_m3");
+            in.heat_flux_W_m2 = a.not_negative("heat_flux_W_m2");
+            in.alpha = a.not_negative("alpha");
+            in.volumetric_heat_release_W_m3 = a.positive("volumetric_heat_release_W_m3");
             break;
         case fire::FlameDriver::HeatRelease:
             in.heat_release_W = heat_release_W(a);
@@ -87,38 +81,38 @@ std::vector<double> flame_height(const Arguments& a) {
             in.plume_coefficient_m_kW = plume_coefficient(a);
             break;
         case fire::FlameDriver::FirelineIntensity:
-            in.fireline_intensity_W_m = 1e3 * a.number("fireline_intensity_kW_m");
+            in.fireline_intensity_W_m = 1e3 * a.not_negative("fireline_intensity_kW_m");
             if (method.name == "finney_grumstrup") in.front_depth_m = front_depth_m(a);
             break;
         case fire::FlameDriver::Given:
             in.heat_flux_W_m2 = number_or(a, "heat_flux_W_m2", 1.0);
-            in.constant_m = a.number("constant_m");
-            if (method.name == "raster") in.given_length_m = a.number("flame_length_m");
+            in.constant_m = a.not_negative("constant_m");
+            if (method.name == "raster") in.given_length_m = a.not_negative("flame_length_m");
             break;
     }
     const double size_m = method.size_m(in), tilt_rad = a.number("tilt_deg") * kDegree_rad;
     if (!(tilt_rad >= 0.0 && tilt_rad < 0.5 * kPi))
         throw input_error("--tilt_deg", fmt::format("is {}, must lie within 0 and 90", a.number("tilt_deg")));
-    const double height_m = fire::vertical_height_m(method.extent, size_m, tilt_rad, a.number("stand_height_m"));
+    const double height_m = fire::vertical_height_m(method.extent, size_m, tilt_rad, a.not_negative("stand_height_m"));
     const bool is_height = method.extent == fire::FlameExtent::Height;
     return {height_m, is_height ? size_m / std::cos(tilt_rad) : size_m};
 }
 
 /// m'' D: given as its two factors, or fireline intensity / heat of combustion.
 double burning_rate_kg_m_s(const Arguments& a) {
-    if (a.has("burning_rate_kg_m2_s")) return a.number("burning_rate_kg_m2_s") * a.number("diameter_m");
-    return 1e3 * a.number("fireline_intensity_kW_m") / above_zero(a, "heat_of_combustion_J_kg");
+    if (a.has("burning_rate_kg_m2_s")) return a.not_negative("burning_rate_kg_m2_s") * a.positive("diameter_m");
+    return 1e3 * a.not_negative("fireline_intensity_kW_m") / a.positive("heat_of_combustion_J_kg");
 }
 
 std::vector<double> flame_tilt(const Arguments& a) {
     const auto& method = row_of(fire::kFlameTiltMethods, a.text("method"));
     fire::TiltInputs in;
-    in.wind_m_s = a.number("wind_m_s");
-    in.air_density_kg_m3 = above_zero(a, "air_density_kg_m3");
-    in.air_heat_capacity_J_kg_K = above_zero(a, "air_heat_capacity_J_kg_K");
-    in.air_temperature_K = above_zero(a, "air_temperature_K");
-    in.fuel_vapour_density_kg_m3 = above_zero(a, "fuel_vapour_density_kg_m3");
-    in.heat_of_combustion_J_kg = above_zero(a, "heat_of_combustion_J_kg");
+    in.wind_m_s = a.not_negative("wind_m_s");
+    in.air_density_kg_m3 = a.positive("air_density_kg_m3");
+    in.air_heat_capacity_J_kg_K = a.positive("air_heat_capacity_J_kg_K");
+    in.air_temperature_K = a.positive("air_temperature_K");
+    in.fuel_vapour_density_kg_m3 = a.positive("fuel_vapour_density_kg_m3");
+    in.heat_of_combustion_J_kg = a.positive("heat_of_combustion_J_kg");
     in.physics = physics(a);
     const double slope_deg = a.number("slope_deg");
     if (!(std::abs(slope_deg) < 90.0))
@@ -130,17 +124,17 @@ std::vector<double> flame_tilt(const Arguments& a) {
         case fire::TiltDriver::None:
             break;
         case fire::TiltDriver::FirelineIntensity:
-            in.fireline_intensity_W_m = 1e3 * a.number("fireline_intensity_kW_m");
+            in.fireline_intensity_W_m = 1e3 * a.not_negative("fireline_intensity_kW_m");
             break;
         case fire::TiltDriver::BurningRate:
             in.burning_rate_kg_m_s = burning_rate_kg_m_s(a);
             break;
         case fire::TiltDriver::FlameSize:
             in.extent = a.has("flame_length_m") ? fire::FlameExtent::Length : fire::FlameExtent::Height;
-            in.flame_size_m = a.has("flame_length_m") ? a.number("flame_length_m") : a.number("flame_height_m");
+            in.flame_size_m = a.has("flame_length_m") ? a.not_negative("flame_length_m") : a.not_negative("flame_height_m");
             break;
         case fire::TiltDriver::HeatRelease:
-            in.heat_release_W = a.number("heat_release_W");
+            in.heat_release_W = a.not_negative("heat_release_W");
             break;
     }
     return {method.tilt_rad(in) / kDegree_rad};
@@ -206,7 +200,7 @@ Calculation thesis_potassium_calculation() {
             {"ionised_fraction", "power_W", "ratio_766", "ratio_770"},
             [](const Arguments& a) {
                 const radiometry::ThesisPotassium gas;
-                const double T_K = above_zero(a, "temperature_K"), emissivity = above_zero(a, "emissivity");
+                const double T_K = a.positive("temperature_K"), emissivity = a.positive("emissivity");
                 return std::vector{radiometry::thesis_ionised_fraction(gas, T_K),
                                    radiometry::thesis_potassium_power_W(gas, T_K),
                                    radiometry::thesis_potassium_ratio(gas, T_K, emissivity, 766.40, 766.60),
@@ -221,13 +215,11 @@ Calculation alkali_width_calculation() {
             {"potassium_nm", "sodium_nm"},
             [](const Arguments& a) {
                 static const auto lines = radiometry::load_alkali_lines(data_folder() / "optical" / "alkali_lines.csv");
-                const double T_K = above_zero(a, "temperature_K"), path_m = above_zero(a, "path_m"),
-                             pressure_atm = above_zero(a, "pressure_atm");
+                const double T_K = a.positive("temperature_K"), path_m = a.positive("path_m"),
+                             pressure_atm = a.positive("pressure_atm");
                 const auto width_nm = [&](const auto& doublet, const char* ppm) {
-                    if (!(a.number(ppm) >= 0.0))
-                        throw input_error(fmt::format("--{}", ppm),
-                                          fmt::format("found {}, expected at least 0", a.number(ppm)));
-                    return 1e3 * radiometry::equivalent_width_um(doublet, 1e-6 * a.number(ppm) * path_m, T_K, pressure_atm);
+                    return 1e3 *
+                           radiometry::equivalent_width_um(doublet, 1e-6 * a.not_negative(ppm) * path_m, T_K, pressure_atm);
                 };
                 return std::vector{width_nm(lines.potassium, "potassium_ppm"), width_nm(lines.sodium, "sodium_ppm")};
             }};

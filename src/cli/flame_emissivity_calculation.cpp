@@ -19,14 +19,6 @@ const radiometry::FlameOptics& optics() {
     return loaded;
 }
 
-double at_least(const Arguments& a, const std::string& name, double least, bool included = true) {
-    const double value = a.number(name);
-    if (!(included ? value >= least : value > least) || !std::isfinite(value))
-        throw input_error("--" + name,
-                          fmt::format("found {}, expected {} {}", value, included ? "at least" : "more than", least));
-    return value;
-}
-
 /// Of one mixture and temperature, before a cold black background.
 struct UniformFlame {
     double path_m = 0.0, temperature_K = 0.0;
@@ -39,24 +31,24 @@ struct UniformFlame {
 };
 
 UniformFlame uniform_flame(const Arguments& a) {
-    UniformFlame flame{at_least(a, "path_m", 0.0), at_least(a, "temperature_K", 0.0, false), {}};
+    UniformFlame flame{a.not_negative("path_m"), a.positive("temperature_K"), {}};
     FlameGas& gas = flame.gas;
-    gas.soot_volume_fraction = at_least(a, "soot_volume_fraction", 0.0);
-    gas.x_H2O = at_least(a, "x_h2o", 0.0);
-    gas.x_CO2 = at_least(a, "x_co2", 0.0);
-    gas.x_CO = at_least(a, "x_co", 0.0);
-    gas.x_CH4 = at_least(a, "x_ch4", 0.0);
-    gas.x_O2 = at_least(a, "x_o2", 0.0);
+    gas.soot_volume_fraction = a.not_negative("soot_volume_fraction");
+    gas.x_H2O = a.not_negative("x_h2o");
+    gas.x_CO2 = a.not_negative("x_co2");
+    gas.x_CO = a.not_negative("x_co");
+    gas.x_CH4 = a.not_negative("x_ch4");
+    gas.x_O2 = a.not_negative("x_o2");
     if (gas.x_N2() < 0.0)
         throw input_error("--x_h2o, --x_co2, --x_co, --x_ch4, --x_o2", "mole fractions sum to more than 1");
-    gas.potassium_ppm = at_least(a, "potassium_ppm", 0.0);
-    gas.sodium_ppm = at_least(a, "sodium_ppm", 0.0);
-    gas.pressure_Pa = radiometry::kAtmosphere_Pa * at_least(a, "pressure_atm", 0.0, false);
+    gas.potassium_ppm = a.not_negative("potassium_ppm");
+    gas.sodium_ppm = a.not_negative("sodium_ppm");
+    gas.pressure_Pa = radiometry::kAtmosphere_Pa * a.positive("pressure_atm");
     return flame;
 }
 
 std::vector<double> compute(const Arguments& a) {
-    const auto path = uniform_flame(a).at(at_least(a, "wavelength_um", 0.0, false));
+    const auto path = uniform_flame(a).at(a.positive("wavelength_um"));
     return {-std::expm1(-path.depth()), path.emitted_radiance()};
 }
 

@@ -13,13 +13,6 @@
 namespace pyroscene::cli {
 namespace {
 
-double within(const Arguments& a, const std::string& name, double lowest, double highest) {
-    const double value = a.number(name);
-    if (!(value >= lowest && value <= highest))
-        throw input_error("--" + name, fmt::format("found {}, expected {} to {}", value, lowest, highest));
-    return value;
-}
-
 /// The model with a number of the shipped table, or of the file of --fuel_models.
 const spread::FuelModel& fuel_model(const Arguments& a) {
     static std::map<std::string, spread::FuelModels> files;  // stays between the rows of a CSV file
@@ -40,13 +33,13 @@ const spread::FuelModel& fuel_model(const Arguments& a) {
 
 double midflame_wind_m_s(const Arguments& a, const spread::FuelModel& model) {
     constexpr double kFastest_m_s = 200.0;
-    const double wind_m_s = within(a, "wind_m_s", 0.0, kFastest_m_s);
+    const double wind_m_s = a.within("wind_m_s", 0.0, kFastest_m_s);
     const auto mode = a.text("wind_mode");
     if (mode == "midflame") return wind_m_s;
     if (mode != "20ft" && mode != "10m")
         throw input_error("--wind_mode", fmt::format("'{}' is none of midflame, 20ft, 10m", mode));
-    const spread::Canopy canopy{within(a, "canopy_cover", 0.0, 1.0), within(a, "canopy_height_m", 0.0, 150.0),
-                                within(a, "crown_ratio", 0.0, 1.0)};
+    const spread::Canopy canopy{a.within("canopy_cover", 0.0, 1.0), a.within("canopy_height_m", 0.0, 150.0),
+                                a.within("crown_ratio", 0.0, 1.0)};
     return wind_m_s * spread::wind_adjustment(model.depth_m, canopy) /
            (mode == "10m" ? spread::kTenMetresToTwentyFeet : 1.0);
 }
@@ -63,13 +56,13 @@ std::vector<double> spread_behaviour(const Arguments& a) {
     const auto& model = fuel_model(a);
     spread::Moistures moisture{};
     const char* const names[] = {"m1h_pct", "m10h_pct", "m100h_pct", "mherb_pct", "mwoody_pct"};
-    for (std::size_t i = 0; i < moisture.size(); ++i) moisture[i] = within(a, names[i], 0.0, kWettest_pct) / 100.0;
+    for (std::size_t i = 0; i < moisture.size(); ++i) moisture[i] = a.within(names[i], 0.0, kWettest_pct) / 100.0;
     const auto bed = spread::fuel_bed(model, moisture, curing(a));
     // -1 is how fuel layers mark the aspect of level ground.
-    const double aspect_deg = within(a, "aspect_deg", -1.0, 360.0), from_deg = within(a, "wind_from_deg", -360.0, 360.0);
-    const double slope_rad = within(a, "slope_deg", 0.0, 89.0) * kDegree_rad;
+    const double aspect_deg = a.within("aspect_deg", -1.0, 360.0), from_deg = a.within("wind_from_deg", -360.0, 360.0);
+    const double slope_rad = a.within("slope_deg", 0.0, 89.0) * kDegree_rad;
     const auto head = spread::head_fire(bed, midflame_wind_m_s(a, model), (from_deg - aspect_deg) * kDegree_rad,
-                                        std::tan(slope_rad), within(a, "wind_limit", 0, 1) != 0.0);
+                                        std::tan(slope_rad), a.within("wind_limit", 0, 1) != 0.0);
     const double intensity_W_m = bed.heat_J_m2 * head.rate_m_s;
     double direction_deg = std::fmod(aspect_deg + 540.0 + head.from_upslope_rad / kDegree_rad, 360.0);
     if (360.0 - direction_deg < 1e-9) direction_deg = 0.0;

@@ -51,6 +51,26 @@ TEST(Calc, KnownValues) {
     EXPECT_NEAR(value("atmosphere --wavelength_um 0.55 --altitude_m 4200"), 0.724, 0.002);
 }
 
+TEST(Calc, RefusesWhatHasNoMeaning) {
+    const auto refused = [](const std::string& words, const std::string& reason) {
+        const auto result = pyroscene_cli("calc " + words);
+        EXPECT_EQ(result.exit_code, 3) << words;
+        EXPECT_NE(result.output.find(reason), std::string::npos) << result.output;
+    };
+    refused("planck --wavelength_um -4 --temperature_K 1100", "--wavelength_um: found -4, expected more than 0");
+    refused("planck --wavelength_um nan --temperature_K 1100", "--wavelength_um: found nan, expected more than 0");
+    refused("planck --wavelength_um 4 --temperature_K -1", "--temperature_K: found -1, expected at least 0");
+    refused("scar-temperature --time_s -5", "--time_s: found -5, expected at least 0");
+    refused("flame-height --method byram --fireline_intensity_kW_m -5", "--fireline_intensity_kW_m: found -5");
+    refused("flame-tilt --method albini --wind_m_s -3 --flame_height_m 2", "--wind_m_s: found -3");
+    refused("atmosphere --wavelength_um 4 --altitude_m -3000", "--altitude_m: found -3000, expected at least 0");
+    refused("atmosphere --wavelength_um 4 --altitude_m 3000 --view_zenith_deg 100",
+            "--view_zenith_deg: found 100, expected 0 to 90");
+    EXPECT_NE(pyroscene_cli("calc atmosphere --wavelength_um 4 --altitude_m 3000 --view_zenith_deg 80")
+                  .output.find("warning: atmosphere: view zenith 80 deg is outside the tables; 65 deg is used"),
+              std::string::npos);
+}
+
 TEST(Calc, TableKeepsItsColumnsAndAppendsResults) {
     const ScratchFolder scratch;
     std::ofstream(scratch / "in.csv") << "# points\nname,wavelength_um,temperature_K\na,4,1100\nb,11,300\n";
