@@ -63,6 +63,12 @@ radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, radiometry::
                                            });
 }
 
+FlameGas flame_gas(const Scenario& scenario, const inputs::SceneInputs& in) {
+    FlameGas gas = scenario.flame.gas;
+    gas.pressure_Pa = scenario.flame.pressure_Pa.value_or(radiometry::standard_pressure_Pa(in.mean_height_m));
+    return gas;
+}
+
 /// A table of the user's may be for few wavelengths only, and beyond them it says nothing.
 void check_table_covers(const std::filesystem::path& file, const radiometry::AtmosphereTable& table,
                         const radiometry::SpectralGrid& grid) {
@@ -143,8 +149,8 @@ FireScene make_fire_scene(const Scenario& scenario, const inputs::SceneInputs& i
     const int refinement = fine ? std::clamp(static_cast<int>(std::lround(in.grid.cell_m / fine_m)), 1, 16) : 1;
     FireScene scene;
     scene.surface = fire::surface_at(state, time_s, scenario.fire, refinement);
-    scene.gas = scenario.flame.gas;
-    scene.gas.pressure_Pa = scenario.flame.pressure_Pa.value_or(radiometry::standard_pressure_Pa(in.mean_height_m));
+    scene.gas = flame_gas(scenario, in);
+    scene.burnt_emissivity = burnt_emissivity(scenario);
     scene.plume = make_plume(scenario, in, time_s);
     if (scenario.flame.off) return scene;
     const auto columns = fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters,
@@ -289,6 +295,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
     names.push_back(scenario.surface.burned);
     optics.material_count = static_cast<int>(names.size());
     optics.burnt_material = optics.material_count - 1;
+    optics.burnt_emissivity = fire.burnt_emissivity;
     if (!air.set) {
         out.atmosphere = radiometry::vacuum(n);
         return out;
@@ -310,7 +317,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
 radiometry::SpectralGrid transport_grid(const Scenario& scenario, const inputs::SceneInputs& in,
                                         const std::vector<Spectrum>& responses, double sensor_agl_m,
                                         const radiometry::SunPosition& sun) {
-    return make_grid(responses, flame_tables(scenario).get(), scenario.flame.gas,
+    return make_grid(responses, flame_tables(scenario).get(), flame_gas(scenario, in),
                      scene_air(scenario, in, sensor_agl_m, sun));
 }
 

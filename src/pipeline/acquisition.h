@@ -39,6 +39,7 @@ struct FireScene {
     fire::FlameField flame;
     fire::FlameField plume;  ///< smoke; empty without one
     FlameGas gas;            ///< of the flame
+    radiometry::TotalEmissivity burnt_emissivity;
 };
 FireScene make_fire_scene(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
                           const fire::FireState& state, double time_s);

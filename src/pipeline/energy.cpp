@@ -25,11 +25,26 @@ double heat_release_W(const scenario::Scenario& scenario, const inputs::SceneInp
     return sum * in.grid.cell_area_m2();
 }
 
-double front_power_W(const fire::SurfaceField& surface) {
+double front_power_W(const FireScene& scene) {
+    const auto& surface = scene.surface;
     double area = 0.0;
     for (std::size_t i = 0; i < surface.front_fraction.size(); ++i)
         if (!std::isnan(surface.base_temperature_K[i])) area += surface.front_fraction[i];
-    return area * fourth_power(surface.front_temperature_K) * kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
+    return area * scene.burnt_emissivity.at(surface.front_temperature_K) * fourth_power(surface.front_temperature_K) *
+           kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
+}
+
+/// Burnt ground, above the ambient.
+double scar_power_W(const FireScene& scene) {
+    const auto& surface = scene.surface;
+    const double ambient4 = fourth_power(surface.ambient_temperature_K);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < surface.base_temperature_K.size(); ++i) {
+        const double T_K = surface.base_temperature_K[i], rest = 1.0 - static_cast<double>(surface.front_fraction[i]);
+        if (surface.burned[i] != 0 && !std::isnan(T_K))
+            sum += rest * scene.burnt_emissivity.at(T_K) * (fourth_power(T_K) - ambient4);
+    }
+    return sum * kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
 }
 
 /// Flame, and what of the front's light it does not take up again on the way: the flame stands over the front.
@@ -60,24 +75,14 @@ double fuel_consumed_kg(const scenario::RasterSource& source, const inputs::Scen
 
 void record_energy(RunReport& report, const scenario::Scenario& scenario, const inputs::SceneInputs& in,
                    const fire::FireState& state, const FireScene& scene, const std::string& acquisition_id) {
-    const auto& surface = scene.surface;
-    double front_W = 0.0, scar_W = 0.0;
-    const double ambient4 = fourth_power(surface.ambient_temperature_K), front4 = fourth_power(surface.front_temperature_K);
-    for (std::size_t i = 0; i < surface.base_temperature_K.size(); ++i) {
-        if (std::isnan(surface.base_temperature_K[i])) continue;
-        const double f = surface.front_fraction[i];
-        front_W += f * front4;
-        if (surface.burned[i] != 0) scar_W += (1.0 - f) * (fourth_power(surface.base_temperature_K[i]) - ambient4);
-    }
-    front_W *= kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
-    scar_W *= kStefanBoltzmann_W_m2_K4 * surface.grid.cell_area_m2();
+    const double front_W = front_power_W(scene);
     const FlamePower flame = flame_power(scenario, scene);
     const double released_W = heat_release_W(scenario, in, state.time_s);
 
     const auto prefix = "energy/" + acquisition_id + "/";
     report.record(prefix + "heat_release_W", released_W);
     report.record(prefix + "front_W", front_W);
-    report.record(prefix + "scar_W", scar_W);
+    report.record(prefix + "scar_W", scar_power_W(scene));
     report.record(prefix + "flame_W", flame.soot_W);
     report.record(prefix + "flame_gas_W", flame.gas_W);
     report.record(prefix + "smoke_W", flame.smoke_W);
@@ -96,7 +101,7 @@ void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario
                            FireScene& scene, const std::string& acquisition_id) {
     const auto& flame = scenario.flame;
     if (!flame.radiant_fraction) return;
-    const double wanted_W = *flame.radiant_fraction * state.heat_release_W, front_W = front_power_W(scene.surface);
+    const double wanted_W = *flame.radiant_fraction * state.heat_release_W, front_W = front_power_W(scene);
     const auto give_up = [&](const char* why) {
         report.warn(fmt::format("acquisition '{}': flame.radiant_fraction {} cannot be met: {}", acquisition_id,
                                 *flame.radiant_fraction, why));

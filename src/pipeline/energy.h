@@ -8,7 +8,7 @@
 namespace pyroscene::pipeline {
 
 /// Compares what the inputs release with what the scene radiates and records it as energy/<acquisition>/...:
-/// heat_release_W (cell-mean heat flux x area of the frame), front_W and scar_W (ground, emissivity 1; the scar above ambient),
+/// heat_release_W (cell-mean heat flux x area of the frame), front_W and scar_W (ground; the scar above ambient),
 /// flame_W, flame_gas_W and smoke_W (flame_power.h), radiant_fraction = (front (1 - e) + flame + gas) / release,
 /// where e is the emissivity of the flame that stands over the front.
 /// Warns when the radiant fraction of front and flame exceeds 0.35 (published for wildland fire: 0.10-0.25) under default physics.

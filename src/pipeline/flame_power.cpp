@@ -19,14 +19,13 @@ double fourth_power(double x) { return x * x * x * x; }
 double voxel_m3(const fire::FlameField& field) { return field.grid.dx_m * field.grid.dy_m * field.grid.dz_m; }
 
 double soot_power_W(const scenario::FlameSettings& settings, const FireScene& scene) {
-    constexpr double kSootPlanckMean_per_m_K = 1340.0;
     double sum = 0.0;
     for (const auto& brick : scene.flame.bricks)
         for (std::size_t v = 0; v < brick.fill.size(); ++v) {
             if (!(brick.fill[v] > 0.0F)) continue;
             const double T_K = brick.temperature_K[v];
-            const double k_per_m =
-                settings.grey_absorption_per_m.value_or(kSootPlanckMean_per_m_K * scene.gas.soot_volume_fraction * T_K);
+            const double k_per_m = settings.grey_absorption_per_m.value_or(
+                radiometry::soot_planck_mean_per_m(scene.gas.soot_volume_fraction, T_K));
             sum += brick.fill[v] * k_per_m * fourth_power(T_K);
         }
     return 4.0 * kStefanBoltzmann_W_m2_K4 * sum * voxel_m3(scene.flame);

@@ -48,4 +48,21 @@ std::vector<float> ground_reflectance(const scenario::Scenario& scenario, const 
     return out;
 }
 
+radiometry::TotalEmissivity burnt_emissivity(const scenario::Scenario& scenario) {
+    const auto& surface = scenario.surface;
+    radiometry::TotalEmissivity out;
+    if (surface.emissivity) {
+        out.value.fill(*surface.emissivity);
+        return out;
+    }
+    const auto library = scenario_surfaces(scenario);
+    const auto of = [&](const std::string& name) {
+        return radiometry::total_emissivity(library.reflectance[static_cast<std::size_t>(library.index_of(name))]);
+    };
+    const auto burned = of(surface.burned), ash = of(surface.ash);
+    for (std::size_t i = 0; i < out.value.size(); ++i)
+        out.value[i] = (1.0 - surface.burn_severity) * burned.value[i] + surface.burn_severity * ash.value[i];
+    return out;
+}
+
 }  // namespace pyroscene::pipeline

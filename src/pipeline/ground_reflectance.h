@@ -5,6 +5,7 @@
 
 #include "radiometry/spectral_grid.h"
 #include "radiometry/surfaces.h"
+#include "radiometry/total_emissivity.h"
 #include "scenario/scenario.h"
 
 namespace pyroscene::pipeline {
@@ -17,5 +18,8 @@ radiometry::SurfaceLibrary scenario_surfaces(const scenario::Scenario& scenario)
 /// Throws an input error: unknown surface, a spectrum of the user's that does not cover the grid.
 std::vector<float> ground_reflectance(const scenario::Scenario& scenario, const std::vector<std::string>& covers,
                                       const radiometry::SpectralGrid& grid);
+
+/// Emissivity of burnt ground over all wavelengths.
+radiometry::TotalEmissivity burnt_emissivity(const scenario::Scenario& scenario);
 
 }  // namespace pyroscene::pipeline

@@ -45,4 +45,6 @@ double soot_absorption_per_m(const SootOptics& soot, double lambda_um, double vo
     return soot_absorption_constant(soot, lambda_um) * volume_fraction / (lambda_um * 1e-6);
 }
 
+double soot_planck_mean_per_m(double volume_fraction, double T_K) noexcept { return 1340.0 * volume_fraction * T_K; }
+
 }  // namespace pyroscene::radiometry

@@ -24,4 +24,7 @@ double soot_absorption_constant(const SootOptics& soot, double lambda_um) noexce
 /// \param lambda_um > 0   \param volume_fraction m3 of soot per m3, 0 gives 0; flames 5e-8 to 1e-6
 double soot_absorption_per_m(const SootOptics& soot, double lambda_um, double volume_fraction) noexcept;
 
+/// Planck mean of the above, 1340 fv T [1/m] (1000 to 1100 K).
+double soot_planck_mean_per_m(double volume_fraction, double T_K) noexcept;
+
 }  // namespace pyroscene::radiometry

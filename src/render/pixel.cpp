@@ -76,22 +76,22 @@ void Pixel::add(const SceneRay& ray, const Met& met, double weight) {
         truth_.hit_m = truth_.hit_m + weight * hit_m;
 
     if (smoke_ray_ && smoke_ray_->march(ray.start_m, hit_m)) {
-        add_ground_truth(ground, weight * mixed_truth(weight));
+        add_ground_truth(ground, weight, mixed_truth(weight));
         add_mixed(weight, ground, light_at(met));
         return;
     }
     march(ray.start_m, hit_m);
     const GroundLight light = light_at(met);
     if (pieces_.empty()) {
-        add_ground_truth(ground, weight);
+        add_ground_truth(ground, weight, {});
         add_ground(p.tables, ground, weight, light, mix_);
         return;
     }
-    const double through = flame_truth(weight);
-    add_ground_truth(ground, weight * through);
+    const Through through = flame_truth(weight);
+    add_ground_truth(ground, weight, through);
     if (p.tables.grey) {
         add_grey_flame(weight);
-        add_ground(p.tables, ground, weight * through, light, mix_);
+        add_ground(p.tables, ground, weight * through.at_4um, light, mix_);
     } else {
         add_flame_spectrally(weight, ground, light);
     }
@@ -128,9 +128,9 @@ void Pixel::march(Vec3 start_m, Vec3 end_m) {
     });
 }
 
-/// Opacity, temperature and exitance of the flame on this ray; returns its transmittance.
-double Pixel::flame_truth(double weight) {
-    const bool gas = !prepared_->tables.total_transmittance.empty();
+/// Opacity, temperature and exitance of the flame on this ray.
+Pixel::Through Pixel::flame_truth(double weight) {
+    const bool grey = prepared_->tables.total_transmittance.empty();
     double tau = 1.0, total = 1.0, passed_m = 0.0;
     for (FlamePiece& piece : pieces_) {
         const double T4 = fourth_power(piece.temperature_K);
@@ -140,11 +140,11 @@ double Pixel::flame_truth(double weight) {
         truth_.flame += weight * emitted;
         truth_.flame_T4 += weight * emitted * T4;
         passed_m += piece.fill_length_m;
-        const double left = gas ? prepared_->tables.total_transmittance_at(passed_m) : tau;
+        const double left = grey ? tau : prepared_->tables.total_transmittance_at(passed_m);
         truth_.exitance_W_m2 += weight * kStefanBoltzmann_W_m2_K4 * (total - left) * T4;
         total = left;
     }
-    return tau;
+    return {tau, total};
 }
 
 /// Absorption equal at all wavelengths: emission becomes weights of Planck rows. Follows flame_truth().
@@ -199,11 +199,11 @@ void Pixel::add_ground_behind(double weight, const GroundCell& ground, const Gro
     }
 }
 
-/// What flame_truth() is for flame alone.
-double Pixel::mixed_truth(double weight) {
+/// What flame_truth() is for flame alone. Exitance is that of the fire without the smoke.
+Pixel::Through Pixel::mixed_truth(double weight) {
     const SceneTables& t = prepared_->tables;
-    const bool gas = !t.total_transmittance.empty();
-    double tau = 1.0, total = 1.0, passed_m = 0.0;  // the flame's true exitance is that without the smoke when there is gas
+    const bool grey = t.total_transmittance.empty();
+    double tau = 1.0, total = 1.0, passed_m = 0.0;
     for (const MixedPiece& piece : smoke_ray_->pieces()) {
         const double flame = t.truth_absorption_per_m * piece.flame_m,
                      smoke = t.truth_smoke_extinction_per_m * piece.smoke_m;
@@ -212,13 +212,13 @@ double Pixel::mixed_truth(double weight) {
         tau -= emitted;
         truth_.flame += weight * by_flame;
         truth_.flame_T4 += weight * by_flame * fourth_power(piece.flame_K);
-        const double left = gas ? t.total_transmittance_at(passed_m + piece.flame_m) : total - by_flame;
         passed_m += piece.flame_m;
+        const double left = grey ? total * std::exp(-flame) : t.total_transmittance_at(passed_m);
         truth_.exitance_W_m2 += weight * kStefanBoltzmann_W_m2_K4 * (total - left) * fourth_power(piece.flame_K);
         total = left;
         truth_.smoke += weight * (emitted - by_flame);
     }
-    return tau;
+    return {tau, total};
 }
 
 void Pixel::add_mixed(double weight, const GroundCell& ground, const GroundLight& light) {
@@ -233,18 +233,19 @@ void Pixel::add_mixed(double weight, const GroundCell& ground, const GroundLight
     add_ground_behind(weight, ground, light, tau);
 }
 
-void Pixel::add_ground_truth(const GroundCell& ground, double weight) {
+void Pixel::add_ground_truth(const GroundCell& ground, double weight, const Through& through) {
     if (ground.sky) return;
     const SceneTables& t = prepared_->tables;
-    const double front = weight * ground.front_fraction, rest = weight - front;
-    const auto emissivity = [&](int material) { return t.broadband_emissivity[static_cast<std::size_t>(material)]; };
-    const double burnt_emissivity = emissivity(t.burnt_material);
+    const double seen = weight * through.at_4um, front = seen * ground.front_fraction, rest = seen - front;
+    const auto radiates = [&](double share, double T_K, double cold_K) {
+        truth_.exitance_W_m2 += weight * through.total * share * prepared_->scene.optics->burnt_emissivity.at(T_K) *
+                                kStefanBoltzmann_W_m2_K4 * (fourth_power(T_K) - fourth_power(cold_K));
+    };
     truth_.front += front;
-    truth_.exitance_W_m2 += front * burnt_emissivity * kStefanBoltzmann_W_m2_K4 * fourth_power(t.front_K);
+    radiates(ground.front_fraction, t.front_K, 0.0);
     if (ground.burned) {
         truth_.scar += rest;
-        truth_.exitance_W_m2 += rest * emissivity(ground.base_material) * kStefanBoltzmann_W_m2_K4 *
-                                (fourth_power(ground.base_K) - fourth_power(t.ambient_K));
+        radiates(1.0 - ground.front_fraction, ground.base_K, t.ambient_K);
     } else {
         truth_.background += rest;
     }

@@ -87,14 +87,19 @@ private:
     };
     [[nodiscard]] GroundLight light_at(const Met& met) const;
     void march(Vec3 start_m, Vec3 end_m);
-    double flame_truth(double weight);
+    /// What flames and smoke on a ray let through.
+    struct Through {
+        double at_4um = 1.0;  ///< flame and smoke, for fractions
+        double total = 1.0;   ///< flame over all wavelengths, for exitance
+    };
+    Through flame_truth(double weight);
     void add_grey_flame(double weight);
     void emit_soot(double weight);
     void add_flame_spectrally(double weight, const GroundCell& ground, const GroundLight& light);
-    double mixed_truth(double weight);
+    Through mixed_truth(double weight);
     void add_mixed(double weight, const GroundCell& ground, const GroundLight& light);
     void add_ground_behind(double weight, const GroundCell& ground, const GroundLight& light, const float* tau);
-    void add_ground_truth(const GroundCell& ground, double weight);
+    void add_ground_truth(const GroundCell& ground, double weight, const Through& through);
 
     const PreparedScene* prepared_;
     const SpectralKernels* kernels_;

@@ -17,6 +17,7 @@
 #include "fire/surface_field.h"
 #include "radiometry/flame_optics.h"
 #include "radiometry/spectral_grid.h"
+#include "radiometry/total_emissivity.h"
 #include "radiometry/view_atmosphere.h"
 #include "render/terrain_mesh.h"
 
@@ -66,6 +67,8 @@ struct SceneOptics {
     int material_count = 0;
     std::vector<float> reflectance;  ///< [material][lambda]; emissivity = 1 - reflectance
     int burnt_material = 0;          ///< material of burnt and burning ground
+    /// The same over all wavelengths, for the true exitance, which is the fire's and not the sensor's; black unless told.
+    radiometry::TotalEmissivity burnt_emissivity;
 };
 
 /// All that a camera can see. Pointers are not owned and must outlive the render.

@@ -186,15 +186,8 @@ SceneTables::SceneTables(const RenderScene& scene) {
     absorption_per_m.resize(static_cast<std::size_t>(stride), absorption_per_m.back());
     least_absorption_per_m = *std::min_element(absorption_per_m.begin(), absorption_per_m.end());
     mixture = make_mixture(scene, stride);
-    if (optics.flame_tables && !optics.grey && !scene.flame->empty()) {
-        const auto [low_K, high_K] = scene.flame->temperature_range_K();
-        const double T_K = 0.5 * (low_K + high_K);
-        for (int i = 0; i < kTotalNodes; ++i) {
-            total_transmittance.push_back(1.0 - radiometry::total_emissivity(*optics.flame_tables, optics.flame_gas, T_K,
-                                                                             kTotalUnit_m * std::expm1(kTotalStep * i)));
-        }
-    }
     grey = optics.grey;
+    if (!grey && !scene.flame->empty()) set_total_transmittance(scene);
     const auto nearest = std::min_element(optics.lambda_um.begin(), optics.lambda_um.end(), [](double a, double b) {
         return std::abs(a - kTruthWavelength_um) < std::abs(b - kTruthWavelength_um);
     });
@@ -221,10 +214,18 @@ SceneTables::SceneTables(const RenderScene& scene) {
     thermal_sky = reflected(air.thermal_irradiance_W_m2_um);
     set_open_sky(scene);
     set_slopes(scene);
-    for (int m = 0; m < materials; ++m) {
-        double sum = 0.0;
-        for (int l = 0; l < lambdas; ++l) sum += 1.0 - reflectance(m, l);
-        broadband_emissivity.push_back(sum / lambdas);
+}
+
+void SceneTables::set_total_transmittance(const RenderScene& scene) {
+    const SceneOptics& optics = *scene.optics;
+    const auto [low_K, high_K] = scene.flame->temperature_range_K();
+    const double T_K = 0.5 * (low_K + high_K);
+    const double soot_per_m = radiometry::soot_planck_mean_per_m(optics.gas.soot_volume_fraction, T_K);
+    for (int i = 0; i < kTotalNodes; ++i) {
+        const double length_m = kTotalUnit_m * std::expm1(kTotalStep * i);
+        total_transmittance.push_back(
+            optics.flame_tables ? 1.0 - radiometry::total_emissivity(*optics.flame_tables, optics.flame_gas, T_K, length_m)
+                                : std::exp(-soot_per_m * length_m));
     }
 }
 

@@ -63,8 +63,8 @@ struct SceneTables {
     double truth_smoke_extinction_per_m = 0.0;
     /// Soot, gas and atoms over temperature; null when only the above absorbs.
     std::unique_ptr<const radiometry::FlameTable> mixture;
-    /// Transmittance of flame over all wavelengths at 0, 0.25, ... in ln(1 + filled length / 1 cm), for the true exitance of
-    /// flame with gas; empty without.
+    /// Transmittance of flame over all wavelengths at 0, 0.25, ... in ln(1 + filled length / 1 cm), for the true exitance;
+    /// empty for grey flame, whose transmittance is one.
     std::vector<double> total_transmittance;
     [[nodiscard]] double total_transmittance_at(double fill_length_m) const noexcept;
     bool grey = false;
@@ -78,11 +78,10 @@ struct SceneTables {
     OpenSky open_sky;
     Vec3 to_sun;
     bool has_sun = false, has_sky = false, has_thermal_sky = false;
-    std::vector<double>
-        broadband_emissivity;  ///< per material: plain mean over the wavelengths, for the true radiant exitance
     double front_K = 0.0, ambient_K = 0.0;
 
 private:
+    void set_total_transmittance(const RenderScene& scene);
     void set_slopes(const RenderScene& scene);
     void set_open_sky(const RenderScene& scene);
     void set_smoke(const RenderScene& scene, std::span<const double> reflected, std::span<const double> emitted);

@@ -58,6 +58,29 @@ TEST(GasFlame, FurnaceIsABlackBody) {
     }
 }
 
+// Flame and black front of one temperature radiate together what a black body does, whatever the flame hides of the front.
+TEST(GasFlame, ExitanceOfAnIsothermalFireIsThatOfABlackBody) {
+    const double T_K = 1100.0, black = kStefanBoltzmann_W_m2_K4 * std::pow(T_K, 4.0);
+    for (const bool gas : {true, false})
+        for (const bool smoky : {false, true})
+            for (const double fill : {0.02, 0.2, 1.0}) {
+                TestScene scene = scene_with_gas(T_K, 300.0, 0.0, 7, fill);
+                if (!gas) scene.optics.flame_tables = nullptr;
+                scene.surface.front_temperature_K = T_K;
+                std::fill(scene.surface.front_fraction.begin(), scene.surface.front_fraction.end(), 1.0F);
+                if (smoky) {
+                    scene.optics.smoke_extinction_per_m.assign(kLambda_um.size(), 0.02F);
+                    scene.plume = fire::make_flame_field(
+                        {.corner_m = {0.0, 0.0, 3.0}, .nx = 16, .ny = 16, .dx_m = 10.0, .dy_m = 10.0, .dz_m = 10.0},
+                        box_of_voxels(16, 16, 2, 320.0));
+                }
+                const auto image =
+                    render::render_image(scene.scene(), nullptr, rays_request({{{70.0, 70.0, 1000.0}, {68.0, 71.0, -1.0}}}));
+                EXPECT_GT(image.flame_fraction[0], 0.01F);
+                EXPECT_NEAR(image.radiant_exitance_W_m2[0] / black, 1.0, 1e-6) << gas << smoky << fill;
+            }
+}
+
 TEST(GasFlame, SlabEmitsAndTransmitsLikeTheReferencePath) {
     for (const double fill : {0.1, 1.0}) {
         const TestScene scene = scene_with_gas(1100.0, 900.0, 0.0, 3, fill);

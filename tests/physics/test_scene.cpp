@@ -29,6 +29,7 @@ TestScene::TestScene(const Setup& setup) {
     optics.material_count = 2;  // vegetation, burnt
     optics.reflectance.assign(2 * n, static_cast<float>(setup.reflectance));
     optics.burnt_material = 1;
+    optics.burnt_emissivity.value.fill(1.0 - setup.reflectance);
     spectral = radiometry::monochromatic_grid(setup.lambda_um);
     atmosphere = radiometry::vacuum(static_cast<int>(n));
 }

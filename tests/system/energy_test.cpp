@@ -1,6 +1,7 @@
 // The radiant fraction that the scenario asks for is met, by soot or by temperature, and reported.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <regex>
@@ -47,6 +48,31 @@ TEST(RadiantFraction, SaysWhenTheFrontAloneRadiatesMore) {
     const ScratchFolder folder;
     EXPECT_NE(run_with(folder, "{radiant_fraction: 0.05}").find("cannot be met: the front alone radiates more"),
               std::string::npos);
+}
+
+// What a fire radiates is no matter of who looks: the same camera with one of its bands and with all.
+TEST(TruePower, IsTheFiresAndNotTheBands) {
+    const ScratchFolder folder;
+    for (const char* file : {"dem.tif", "heat_flux.tif", "camera.yaml"})
+        std::filesystem::copy(source_folder() / "scenarios" / "minimal" / file, folder / file);
+    std::ofstream(folder / "scenario.yaml") << R"(pyroscene: 1
+inputs: {terrain: {file: dem.tif}, heat_flux: {file: heat_flux.tif}, wind: {speed: 3, from_deg: 270}}
+start: 2021-08-12T20:00:00Z
+render: {flame_light: false}
+products: [radiance, truth, frp]
+acquisitions:
+  - {id: all, sensor: camera.yaml, time_s: 150, platform: {over: centre, altitude_agl_m: 300}}
+  - {id: one, sensor: camera.yaml, time_s: 150, platform: {over: centre, altitude_agl_m: 300}, bands: [SWIR]}
+)";
+    const auto result = pyroscene_cli("run " + (folder / "scenario.yaml").string() + " -o " + (folder / "out").string());
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const auto power_MW = [&](const char* id) {
+        double sum = 0.0;
+        for (const double v : plane(gis::read_image(folder / "out" / id / "frp.tif"), 1)) sum += std::isnan(v) ? 0.0 : v;
+        return sum;
+    };
+    EXPECT_GT(power_MW("all"), 100.0);
+    EXPECT_NEAR(power_MW("one") / power_MW("all"), 1.0, 1e-6);
 }
 
 // Voxels of any size carry the same thin emission of soot, and nearly the same of gas, which saturates.

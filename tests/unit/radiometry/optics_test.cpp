@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "base/constants.h"
 #include "base/error.h"
+#include "radiometry/planck.h"
 #include "radiometry/soot.h"
 #include "radiometry/surfaces.h"
+#include "radiometry/total_emissivity.h"
 #include "test_data.h"
 
 namespace pyroscene::radiometry {
@@ -127,6 +130,21 @@ TEST(Surfaces, RefusesReflectanceBeyondOne) {
     const auto message = message_of([&] { (void)load_surfaces(file.path()); });
     EXPECT_NE(message.find(":3"), std::string::npos) << message;
     EXPECT_NE(message.find("1.2"), std::string::npos) << message;
+}
+
+TEST(TotalEmissivity, IsThePlanckMeanOfTheSpectrum) {
+    // Reflectance 0.1 below 4 um and 0.5 above: the share of each by the band integral.
+    const Spectrum step{Quantity::Reflectance, {0.4, 4.0, 4.0 + 1e-9, 14.0}, {0.1, 0.1, 0.5, 0.5}};
+    const auto emissivity = total_emissivity(step);
+    for (const double T_K : {500.0, 1000.0, 1500.0}) {
+        const double below = band_radiance(T_K, 1e-3, 4.0) * kPi / (kStefanBoltzmann_W_m2_K4 * std::pow(T_K, 4.0));
+        EXPECT_NEAR(emissivity.at(T_K), 0.9 * below + 0.5 * (1.0 - below), 2e-3) << T_K;
+    }
+    EXPECT_NEAR(emissivity.at(1125.0), 0.5 * (emissivity.at(1000.0) + emissivity.at(1250.0)), 1e-12);
+    EXPECT_EQ(emissivity.at(100.0), emissivity.value.front());
+    EXPECT_EQ(emissivity.at(5000.0), emissivity.value.back());
+    const auto grey = total_emissivity({Quantity::Reflectance, {3.0, 5.0}, {0.2, 0.2}});
+    for (const double value : grey.value) EXPECT_NEAR(value, 0.8, 1e-12);
 }
 
 TEST(FuelSurfaces, EveryFuelModelHasASpectrum) {
