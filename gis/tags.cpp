@@ -83,7 +83,8 @@ std::string envi_list(const Range& elements, Text text) {
     return list + "}";
 }
 
-std::string number(double value) { return fmt::format("{}", value); }
+/// Digits that a sum of decimal fractions does not spoil.
+std::string number(double value) { return fmt::format("{:.12g}", value); }
 
 void add_time(TagList& tags, const std::string& iso, const std::string& subject) {
     int year = 0, month = 0, day = 0, hour = 0, minute = 0;

@@ -84,8 +84,8 @@ int ImageChannels::require(const std::optional<int>& wanted, const BandWish& wis
     if (!wanted) {
         const int found = find(wish);
         if (found == 0)
-            throw input_error(
-                path, fmt::format("no band between {} and {} um for the {}", wish.lowest_um, wish.highest_um, wish.what));
+            throw input_error(path, fmt::format("no band between {:.4g} and {:.4g} um for the {}", wish.lowest_um,
+                                                wish.highest_um, wish.what));
         return found;
     }
     if (*wanted < 1 || *wanted > static_cast<int>(info().bands.size()))

@@ -35,8 +35,8 @@ std::map<std::string, std::string> common_metadata(const GroupJob& job) {
             {"PLATFORM_HEADING_DEG", fmt::format("{}", pose.heading_rad / kDegree_rad)},
             {"PLATFORM_PITCH_DEG", fmt::format("{}", pose.pitch_rad / kDegree_rad)},
             {"PLATFORM_ROLL_DEG", fmt::format("{}", pose.roll_rad / kDegree_rad)},
-            {"FOCAL_LENGTH_M", fmt::format("{}", group.focal_length_m)},
-            {"PIXEL_PITCH_M", fmt::format("{}", group.pixel_pitch_m)},
+            {"FOCAL_LENGTH_M", fmt::format("{:.12g}", group.focal_length_m)},
+            {"PIXEL_PITCH_M", fmt::format("{:.12g}", group.pixel_pitch_m)},
             {"PHYSICS", job.scenario.physics == fire::Physics::Thesis ? "thesis" : "default"}};
 }
 

@@ -251,6 +251,13 @@ std::vector<std::array<double, 2>> footprint(const RenderedImage& r) {
     return ring;
 }
 
+/// Angle between the vertical and the line of sight at the sensor, from the view zenith and range at the ground, over a sphere.
+double off_nadir_deg(double view_zenith_deg, double range_m) {
+    constexpr double kEarthRadius_m = 6371e3;
+    const double zenith = view_zenith_deg * kDegree_rad;
+    return std::atan2(kEarthRadius_m * std::sin(zenith), kEarthRadius_m * std::cos(zenith) + range_m) / kDegree_rad;
+}
+
 StacImage stac_image(const ProductJob& job, const RenderedImage& r, const MapGrid& grid,
                      std::vector<std::filesystem::path> native) {
     StacImage image;
@@ -261,7 +268,8 @@ StacImage stac_image(const ProductJob& job, const RenderedImage& r, const MapGri
     const std::size_t centre = static_cast<std::size_t>(r.lines / 2) * static_cast<std::size_t>(r.samples) +
                                static_cast<std::size_t>(r.samples / 2);
     const auto finite_or_zero = [](double v) { return std::isfinite(v) ? v : 0.0; };
-    image.off_nadir_deg = finite_or_zero(r.where(kViewZenith)[centre]);
+    image.incidence_deg = finite_or_zero(r.where(kViewZenith)[centre]);
+    image.off_nadir_deg = off_nadir_deg(image.incidence_deg, finite_or_zero(r.where(kRange)[centre]));
     image.sun_azimuth_deg = finite_or_zero(r.where(kSunAzimuth)[centre]);
     image.sun_elevation_deg = finite_or_zero(90.0 - r.where(kSunZenith)[centre]);
     for (const auto& entry : std::filesystem::directory_iterator(job.files.folder)) {

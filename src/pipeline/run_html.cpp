@@ -151,7 +151,7 @@ void show_image(drawing::HtmlPage& page, const scenario::Scenario& scenario, con
                 {"image", fmt::format("{} x {}, {} band{}", digest.samples, digest.lines, digest.bands.size(),
                                       digest.bands.size() == 1 ? "" : "s")},
                 {"pixel on the ground", number(shown.property("gsd"), "m")},
-                {"view zenith, centre", number(shown.property("view:off_nadir"), "deg")},
+                {"view zenith, centre", number(shown.property("view:incidence_angle"), "deg")},
                 {"sun elevation", number(shown.property("view:sun_elevation"), "deg")},
                 {"pixels with fire", std::to_string(digest.fire_pixels)},
                 {"fire radiative power seen", digest.seen_frp_MW ? number(*digest.seen_frp_MW, "MW") : "–"}});

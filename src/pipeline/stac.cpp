@@ -116,6 +116,7 @@ void write_stac_item(const ProductJob& job, const StacImage& image) {
                        {"instruments", Json::array({job.sensor.id})},
                        {"gsd", image.gsd_m},
                        {"view:off_nadir", image.off_nadir_deg},
+                       {"view:incidence_angle", image.incidence_deg},
                        {"view:sun_azimuth", image.sun_azimuth_deg},
                        {"view:sun_elevation", image.sun_elevation_deg},
                        {"proj:wkt2", grid.crs_wkt},

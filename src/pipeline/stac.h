@@ -14,7 +14,9 @@ namespace pyroscene::pipeline {
 struct StacImage {
     std::vector<std::array<double, 2>> footprint_lon_lat;  ///< closed ring, counter-clockwise
     double gsd_m = 0.0;
-    double sun_azimuth_deg = 0.0, sun_elevation_deg = 0.0, off_nadir_deg = 0.0;
+    double sun_azimuth_deg = 0.0, sun_elevation_deg = 0.0;
+    double off_nadir_deg = 0.0;                 ///< at the sensor, of the image's centre
+    double incidence_deg = 0.0;                 ///< view zenith at the ground there
     std::vector<std::filesystem::path> assets;  ///< files in the acquisition's folder
     MapGrid ortho_grid;
 };

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <regex>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/constants.h"
+#include "base/files.h"
 #include "gis/crs.h"
 #include "radiometry/planck.h"
 #include "sensors/detector.h"
@@ -253,6 +256,34 @@ acquisitions:
         const double area_m2 = sum / (radiometry::band_mean_radiance(kFront_K, band.response) - background);
         EXPECT_NEAR(area_m2 / flaming_m2, 1.0, 0.01) << eye.sensor;
     }
+}
+
+// MODIS 50 degrees off nadir, from 705 km: the ground sees it farther from its zenith, by the sine rule.
+TEST(Catalog, OffNadirIsAtTheSensorAndIncidenceAtTheGround) {
+    const ScratchFolder folder;
+    const auto grid = square_map(20000.0, 500.0);
+    write_band(folder / "dem.tif", grid, "m", [](double, double) { return 500.0; });
+    write_band(folder / "flux.tif", grid, "W m-2", [](double, double) { return 0.0; }, {{"time_s", "0"}});
+    run_in(folder, R"(pyroscene: 1
+inputs: {terrain: {file: dem.tif}, heat_flux: {file: flux.tif}}
+start: 2021-08-12T18:00:00Z
+atmosphere: {model: none}
+products: [radiance]
+acquisitions:
+  - {id: edge, sensor: modis-aqua, time_s: 0, groups: [1km], bands: [B31], platform: {over: centre, pass: ascending, scan_angle_deg: 50}}
+)");
+    std::string item;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out" / "edge"))
+        if (entry.path().filename().string().starts_with("item")) item = read_text_file(entry.path());
+    const auto angle_deg = [&](const std::string& name) {
+        std::smatch found;
+        EXPECT_TRUE(std::regex_search(item, found, std::regex("\"view:" + name + "\": ([-0-9.e]+)"))) << item;
+        return std::stod(found[1]);
+    };
+    EXPECT_NEAR(angle_deg("off_nadir"), 50.0, 0.5);
+    const double altitude_m = 705e3, radius_m = 6371e3;
+    EXPECT_NEAR(angle_deg("incidence_angle"),
+                std::asin((radius_m + altitude_m) / radius_m * std::sin(50.0 * kDegree_rad)) / kDegree_rad, 1.0);
 }
 
 }  // namespace
