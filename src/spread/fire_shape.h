@@ -42,6 +42,13 @@ struct Slowness {
 /// Of a front that came by a displacement v. \pre the shape burns and v is not 0
 Slowness slowness(const FireShape& shape, double x_m, double y_m) noexcept;
 
+/// Where on a line the fire starts that reaches a place first: the share s of the line, between its ends, with the least
+/// of step s + t(v + s d). NaN when an end is the best start.
+/// \param x_m, y_m    displacement v from the first end to the place
+/// \param dx_m, dy_m  how the displacement changes along the line, d
+/// \param step_s      how much later the other end burns
+double earliest_share(const FireShape& shape, double x_m, double y_m, double dx_m, double dy_m, double step_s) noexcept;
+
 /// Rate of spread normal to the front, along the slope [m s-1].
 double normal_rate_m_s(const Slowness& slowness, double slope_east, double slope_north) noexcept;
 

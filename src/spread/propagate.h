@@ -32,11 +32,12 @@ struct Arrival {
 /// The first arrival of the fire at each cell: the least time over all paths from the seeds, by an ordered front (Dijkstra's order)
 /// that reaches a cell over straight rays from anywhere between two burnt cells of a ring of 32 neighbours, with arrival times
 /// interpolated by cubics from times and slownesses (semi-Lagrangian; Sethian and Vladimirsky 2003, with Hermite interpolation). A cell that
-/// is taken also sees whether the fire comes earlier straight from where the ray to its parent began (up to 100 cells away; as Theta*,
-/// Nash, Daniel, Koenig and Felner 2007, straightens paths on grids), which on even ground is the exact way from the seed whatever the
-/// shape. A cell that turns out to be reached earlier is taken up again. Rays take the time of each cell for the part that they cross and
-/// do not cross cells without fire, nor the corner between two of them. Runs on one thread; the
-/// result is the same everywhere.
+/// is taken also sees whether the fire comes as early by one way from where the ways to its parents began, straight (as Theta*, Nash,
+/// Daniel, Koenig and Felner 2007, straightens paths on grids) or bent to a parabola with the earliest arrival: on even ground the
+/// exact way from the seed whatever the shape, and where rates change smoothly an error that falls faster than the size of the cells.
+/// A way longer than 50 cells (100 when straight) goes on from its middle. A cell that turns out to be reached earlier is taken up again.
+/// Rays take the time of each cell for the part that they cross and do not cross cells without fire, nor the corner between two of them.
+/// Runs on one thread; the result is the same everywhere.
 Arrival propagate(const Propagation& job);
 
 }  // namespace pyroscene::spread
