@@ -100,9 +100,7 @@ ModelledFire spread_own_fire(const Scenario& scenario, const Raster<float>& terr
                                      source.ignition.empty() ? source.line : source.ignition.front().line_number);
     if (seeds.empty()) throw input_error(subject, "lies outside the map; expected a place on it");
     const auto weather = spread_weather(scenario, terrain_m.grid, levels);
-    auto rules = source.rules;
-    if (levels != nullptr) rules.wind_height = spread::WindHeight::TwentyFeet;
-    auto spread = spread::spread_fire(land, weather, rules, seeds, source.frames.times_s.back(), on_progress);
+    auto spread = spread::spread_fire(land, weather, source.rules, seeds, source.frames.times_s.back(), on_progress);
     const auto& arrival = spread.arrival_time_s.values;
     if (std::all_of(arrival.begin(), arrival.end(), [](float t) { return std::isnan(t); }))
         throw input_error(subject, "lights nothing: there is no fuel that burns, it is too wet, or the end comes before it");

@@ -86,9 +86,8 @@ std::string spread_text(const scenario::SpreadSource& s) {
     for (const auto& m : s.moisture_pct) out += fmt::format("{}|", m.value_or(-1.0));
     out += s.moisture_raster ? text(*s.moisture_raster) : "-;";
     out += text(s.canopy);
-    return out + fmt::format("{}|{}|{}|{}|{}|{};", static_cast<int>(s.rules.wind_height), static_cast<int>(s.rules.curing),
-                             s.rules.wind_limit, fmt::join(s.frames.times_s, ","), s.frames.mean_over_s,
-                             s.frames.coarse_burn_time_s);
+    return out + fmt::format("{}|{}|{}|{}|{};", static_cast<int>(s.rules.curing), s.rules.wind_limit,
+                             fmt::join(s.frames.times_s, ","), s.frames.mean_over_s, s.frames.coarse_burn_time_s);
 }
 
 std::string fire_text(const Scenario& s) {

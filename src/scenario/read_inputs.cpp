@@ -203,6 +203,8 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
     }
     if (inputs.spread && inputs.spread->says_wind_height && inputs.wind && inputs.wind->level)
         spread.child("wind_height").report("'inputs.wind.height' says it; give one of the two");
+    // Flames lean in the wind that spreads the fire, at their own height.
+    if (inputs.spread && inputs.wind && !inputs.wind->level) inputs.wind->level = inputs.spread->wind_level;
     if (inputs.landscape) add_landscape(*inputs.landscape, inputs);
     node.finish();
     return inputs;

@@ -127,10 +127,7 @@ SpreadSource read_spread(const config::Node& node, const fs::path& folder, bool 
     read_moisture(node.required_child("moisture"), folder, source);
     source.canopy = read_canopy(node.child("canopy"), folder);
     source.says_wind_height = node.has("wind_height");
-    const auto height = node.choice("wind_height", "20ft", {"midflame", "20ft", "10m"});
-    source.rules.wind_height = height == "midflame" ? spread::WindHeight::Midflame
-                               : height == "10m"    ? spread::WindHeight::TenMetres
-                                                    : spread::WindHeight::TwentyFeet;
+    source.wind_level.kind = wind_level_kind(node.choice("wind_height", "20ft", kWindHeights));
     source.rules.curing = node.choice("curing", "behave", {"behave", "linear"}) == "behave" ? spread::Curing::BehavePlus
                                                                                             : spread::Curing::Linear;
     source.rules.wind_limit = node.boolean("wind_limit", false);

@@ -70,7 +70,7 @@ WindNinjaSource read_windninja(const config::Node& node, const fs::path& folder)
 /// Where the wind blows, and what lies below it.
 void read_level(const config::Node& node, const fs::path& folder, WindSource& wind) {
     using Kind = spread::WindLevel::Kind;
-    const auto name = node.choice("height", "20ft", {"midflame", "20ft", "10m"});
+    const auto name = node.choice("height", "20ft", kWindHeights);
     const auto height_m = node.optional_number("height_m", Range::between(0.5, 500.0));
     const auto roughness_m = node.optional_number("roughness_m", Range::between(1e-5, 5.0));
     wind.fuel_depth_m = node.optional_number("fuel_depth_m", Range{0.0, 10.0, true});
@@ -82,10 +82,7 @@ void read_level(const config::Node& node, const fs::path& folder, WindSource& wi
             .report(fmt::format("of {} m, expected less than half of the height of {} m", *roughness_m, *height_m));
     if (node.has("height") || height_m) {
         wind.level.emplace();
-        wind.level->kind = height_m             ? Kind::Metres
-                           : name == "midflame" ? Kind::Midflame
-                           : name == "10m"      ? Kind::TenMetres
-                                                : Kind::TwentyFeet;
+        wind.level->kind = height_m ? Kind::Metres : wind_level_kind(name);
         wind.level->height_m = height_m.value_or(wind.level->height_m);
         wind.level->roughness_m = roughness_m;
         return;
@@ -108,6 +105,11 @@ void read_uniform(const config::Node& node, WindSource& wind) {
 }
 
 }  // namespace
+
+spread::WindLevel::Kind wind_level_kind(const std::string& height) {
+    using Kind = spread::WindLevel::Kind;
+    return height == "midflame" ? Kind::Midflame : height == "10m" ? Kind::TenMetres : Kind::TwentyFeet;
+}
 
 WindSource read_wind(const config::Node& node, const fs::path& folder, bool beside_model) {
     WindSource wind;

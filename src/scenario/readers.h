@@ -37,6 +37,9 @@ std::string read_fuel_table(const config::Node& node, const std::filesystem::pat
 /// \param has_landscape  which gives fuel (and canopy) where the node does not
 SpreadSource read_spread(const config::Node& node, const std::filesystem::path& folder, bool has_landscape);
 /// Trees: cover, height_m, crown_ratio.
+/// What heights of the wind are called, and which one a name is.
+inline const std::vector<std::string> kWindHeights{"midflame", "20ft", "10m"};
+spread::WindLevel::Kind wind_level_kind(const std::string& height);
 CanopySource read_canopy(const config::Node& node, const std::filesystem::path& folder);
 /// \param beside_model  a coupled model brings a wind of its own
 WindSource read_wind(const config::Node& node, const std::filesystem::path& folder, bool beside_model);

@@ -9,6 +9,7 @@
 #include "scenario/fire_frames.h"
 #include "scenario/fuel_source.h"
 #include "spread/landscape.h"
+#include "spread/wind_profile.h"
 
 namespace pyroscene::scenario {
 
@@ -45,7 +46,8 @@ struct SpreadSource {
     std::optional<std::filesystem::path> moisture_table;                   ///< CSV: time_s and moistures in per cent
     CanopySource canopy;
     spread::SpreadRules rules;
-    bool says_wind_height = false;  ///< the rules' height is not that of inputs.wind
+    spread::WindLevel wind_level;   ///< of inputs.wind, when that does not say its own
+    bool says_wind_height = false;  ///< `wind_level` is given
     FireFrames frames;
     int line = 0;
 };

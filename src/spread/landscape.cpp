@@ -58,13 +58,11 @@ private:
         return fuel_bed(model, moisture, rules_.curing);
     }
 
-    /// From the height of the wind to midflame.
+    /// From 20 ft above the vegetation to midflame.
     [[nodiscard]] double reduction(const FuelModel& model, std::size_t cell) const noexcept {
-        if (rules_.wind_height == WindHeight::Midflame) return 1.0;
         const auto known = [&](const Field& f) { return std::isfinite(f.at(cell)) ? f.at(cell) : 0.0; };
         const Canopy canopy{known(land_.canopy_cover), known(land_.canopy_height_m), known(land_.crown_ratio)};
-        return wind_adjustment(model.depth_m, canopy) /
-               (rules_.wind_height == WindHeight::TenMetres ? kTenMetresToTwentyFeet : 1.0);
+        return wind_adjustment(model.depth_m, canopy);
     }
 
     const Landscape& land_;

@@ -20,9 +20,6 @@ struct Field {
     [[nodiscard]] double at(std::size_t cell) const noexcept { return uniform() ? everywhere : raster.values[cell]; }
 };
 
-/// The height at which the wind is given.
-enum class WindHeight { Midflame, TwentyFeet, TenMetres };
-
 /// What a fire spreads over.
 struct Landscape {
     Raster<std::uint16_t> fuel;  ///< 0 = carries no fire, else a number of `models`
@@ -31,7 +28,7 @@ struct Landscape {
     Field canopy_cover{}, canopy_height_m{}, crown_ratio{0.5};
 };
 
-/// Wind along the axes of the map and fuel moistures that hold from a time on, until those of the next.
+/// Wind 20 ft (6.1 m) above the vegetation along the axes of the map and fuel moistures that hold from a time on, until those of the next.
 struct Weather {
     double from_s = 0.0;
     Field wind_east_m_s, wind_north_m_s;
@@ -39,7 +36,6 @@ struct Weather {
 };
 
 struct SpreadRules {
-    WindHeight wind_height = WindHeight::TwentyFeet;
     Curing curing = Curing::BehavePlus;
     bool wind_limit = false;
 };

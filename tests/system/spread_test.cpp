@@ -77,7 +77,9 @@ TEST_F(SpreadScenario, WritesWhatAnotherFireModelWouldGive) {
     run_phase(&pipeline::spread, own_fire(), scratch / "fire");
     run_phase(&pipeline::prepare, own_fire(), scratch / "own");
     const auto files = write_scenario("files",
-                                      "  wind: {speed: 4, from_deg: 250}\n  heat_flux: {file: fire/heat_flux.tif}\n"
+                                      "  wind: {speed: 4, from_deg: 250, height: 20ft}\n"
+                                      "  cover: {file: fuel.tif, table: fbfm13}\n"
+                                      "  heat_flux: {file: fire/heat_flux.tif}\n"
                                       "  fuel_load: {file: fire/fuel_load.tif}\n  arrival: {file: fire/arrival.tif}\n"
                                       "  spread_rate: {file: fire/spread_rate.tif}\n"
                                       "  fireline_intensity: {file: fire/fireline_intensity.tif}\n"

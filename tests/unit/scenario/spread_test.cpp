@@ -31,11 +31,26 @@ TEST(Spread, ReadsTheShortestFire) {
     EXPECT_EQ(s.moisture_pct[spread::kHerb], 60.0);
     EXPECT_EQ(s.frames.times_s, (std::vector{300.0, 600.0, 900.0}));
     EXPECT_EQ(s.frames.mean_over_s, 6.0);
-    EXPECT_EQ(s.rules.wind_height, spread::WindHeight::TwentyFeet);
     EXPECT_EQ(s.rules.curing, spread::Curing::BehavePlus);
     EXPECT_FALSE(s.rules.wind_limit);
     EXPECT_EQ(s.canopy.crown_ratio, 0.5);
     EXPECT_EQ(s.frames.coarse_burn_time_s, 300.0);
+}
+
+TEST(Spread, SaysWhereTheWindBlowsThatDoesNotSayIt) {
+    const ScenarioFolder folder;
+    using Kind = spread::WindLevel::Kind;
+    const auto kind = [&](const std::string& height, const std::string& wind) {
+        const auto inputs = folder
+                                .load(with_spread(kFuel + ", " + kIgnition + ", " + kMoisture + ", duration_s: 900" + height,
+                                                  "  wind: {speed: 3, from_deg: 270" + wind + "}\n"))
+                                .inputs;
+        return inputs.wind->level->kind;
+    };
+    EXPECT_EQ(kind("", ""), Kind::TwentyFeet);
+    EXPECT_EQ(kind(", wind_height: 10m", ""), Kind::TenMetres);
+    EXPECT_EQ(kind(", wind_height: midflame", ""), Kind::Midflame);
+    EXPECT_EQ(kind("", ", height: 10m"), Kind::TenMetres);
 }
 
 TEST(Spread, ReadsAllItsKeys) {
@@ -66,7 +81,7 @@ TEST(Spread, ReadsAllItsKeys) {
     EXPECT_FALSE(s.moisture_pct[spread::kOneHour]);
     EXPECT_EQ(s.canopy.cover.raster->bands, std::vector{5});
     EXPECT_EQ(s.canopy.height_m.scale, 0.1);
-    EXPECT_EQ(s.rules.wind_height, spread::WindHeight::TenMetres);
+    EXPECT_EQ(s.wind_level.kind, spread::WindLevel::Kind::TenMetres);
     EXPECT_TRUE(s.rules.wind_limit);
     EXPECT_EQ(s.rules.curing, spread::Curing::Linear);
     EXPECT_EQ(s.frames.times_s, (std::vector{10.0, 25.0}));
