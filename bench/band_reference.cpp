@@ -161,7 +161,7 @@ std::vector<BandError> quadrature_errors(const sensors::Sensor& sensor, const Fl
     for (std::size_t v = 0; v < views.size(); ++v) {
         exact.push_back(terms(kViews_deg[v]));
         views[v].resize(grid.size());
-        air.at(kViews_deg[v] * kDegree_rad, kRelativeAzimuth_rad, views[v]);
+        air.at(kViews_deg[v] * kDegree_rad, kRelativeAzimuth_rad, 0.0, views[v]);
     }
     for (std::size_t b = 0; b < errors.size(); ++b) {
         errors[b].nodes = grid.bands[b].end - grid.bands[b].begin;
