@@ -10,6 +10,7 @@
 #include "pipeline/ground_reflectance.h"
 #include "pipeline/plume_scene.h"
 #include "pipeline/run.h"
+#include "pipeline/scenario_warnings.h"
 #include "radiometry/spectral_grid.h"
 #include "radiometry/sun.h"
 
@@ -61,6 +62,16 @@ std::string wavelengths_text(const radiometry::SpectralGrid& grid, const std::ve
                        plain == grid.size() ? "" : fmt::format("; {} without hot gas", plain));
 }
 
+std::string two_digits(double value) { return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value); }
+
+/// Of the files that a render writes: floats, and doubles for the geolocation.
+double bytes_per_pixel(const Scenario& s, double bands) {
+    const bool smoke = s.inputs.plume || s.plume.rise || !s.plume.layers.empty();
+    const double terms = render::kTermCount - (smoke ? 0 : render::kSmokeTermCount);
+    constexpr double kGeolocation = 9.0, kTruth = 9.0;  // bands; kTruth: fractions, temperatures, exitance, coverage
+    return 4.0 * bands + 8.0 * kGeolocation + (s.products.truth ? 4.0 * (kTruth + bands * (terms + 2.0)) : 0.0);
+}
+
 std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in, const scenario::Acquisition& a,
                                 double& seconds) {
     const auto sensor = sensors::load_sensor(a.sensor);
@@ -82,13 +93,12 @@ std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in
         const double pixels = static_cast<double>(geometry.samples) * geometry.lines, n = grid.size();
         const double cost_s = pixels * (rays_per_pixel * (kRay_s + kRayWavelength_s * n) + kPixelWavelength_s * n);
         seconds += cost_s;
-        // Radiance, terms and truth in memory once, and once more while they are written.
-        const double megabytes = 2.0 * pixels * 4.0 * (static_cast<double>(responses.size()) * 11.0 + 16.0) / 1e6;
+        const double megabytes = 1e-6 * pixels * bytes_per_pixel(s, static_cast<double>(responses.size()));
         out += fmt::format(
-            "  {}: {} group {}, {} x {} pixels, {}, {:.0f} rays per pixel, fire state of {:g} s, about {:.1f} s of one core "
-            "and {:.0f} MB\n",
+            "  {}: {} group {}, {} x {} pixels, {}, {:.0f} rays per pixel, fire state of {:g} s, about {} s of one core; "
+            "radiance, geolocation and truth of {} MB before compression\n",
             a.id, sensor.id, id, geometry.samples, geometry.lines, wavelengths_text(grid, responses), rays_per_pixel,
-            in.frames[frame].time_s, cost_s, megabytes);
+            in.frames[frame].time_s, two_digits(cost_s), two_digits(megabytes));
     }
     return out;
 }
@@ -112,6 +122,7 @@ CheckResult check(const Scenario& scenario) {
     for (const auto& a : scenario.acquisitions)
         passes(result, [&] { acquisitions += acquisition_summary(scenario, in, a, seconds); });
     if (!result.problems.empty()) return result;
+    result.warnings = scenario_warnings(scenario, in);
     const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
     for (const auto& note : scenario.notes) acquisitions += "  note: " + note + "\n";
     result.summary = fmt::format(

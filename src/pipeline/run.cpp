@@ -20,6 +20,7 @@
 #include "pipeline/render_phase.h"
 #include "pipeline/run_html.h"
 #include "pipeline/run_report_file.h"
+#include "pipeline/scenario_warnings.h"
 #include "pipeline/spread_output.h"
 #include "pipeline/state_file.h"
 
@@ -81,19 +82,6 @@ std::vector<const Acquisition*> chosen_acquisitions(const Scenario& scenario, co
     return chosen;
 }
 
-/// A scar's clock starts at the frame that shows it burning, unless an arrival raster says better.
-void warn_of_sparse_frames(const Session& s) {
-    if (s.inputs.arrival_time_s) return;
-    double widest = 0.0;
-    for (std::size_t i = 1; i < s.inputs.frames.size(); ++i)
-        widest = std::max(widest, s.inputs.frames[i].time_s - s.inputs.frames[i - 1].time_s);
-    if (widest > s.scenario.fire.scar.time_constant1_s)
-        s.report.warn(
-            fmt::format("frames are up to {:.0f} s apart, more than the scar's time constant ({:.0f} s): give "
-                        "inputs.arrival to date scars that burned between frames",
-                        widest, s.scenario.fire.scar.time_constant1_s));
-}
-
 /// What the flame relations could not do as asked, front cells of all frames made in this run.
 void count_flames(RunReport& report, const fire::FlameCounts& counts) {
     const std::pair<const char*, std::int64_t> named[] = {
@@ -103,13 +91,6 @@ void count_flames(RunReport& report, const fire::FlameCounts& counts) {
     };
     for (const auto& [name, count] : named)
         if (count > 0) report.count(name, count);
-}
-
-void warn_of_flat_flames(const Session& s) {
-    if (s.scenario.physics == fire::Physics::Thesis && s.scenario.fire.flames.tilt.method == "thesis")
-        s.report.warn(
-            "fire.tilt.method: thesis under physics: thesis follows eq 4.31 as printed, which lays flames flat in calm "
-            "air; physics: default measures its angle from the ground");
 }
 
 /// Lists the connected fronts beside the state. The report tells them for every frame of a short series, else for those that
@@ -129,10 +110,8 @@ void write_fronts(Session& s, std::size_t i, const fire::FireState& state, const
 
 void prepare_phase(Session& s) {
     const PhaseTimer timer(s.report, "prepare");
-    warn_of_sparse_frames(s);
-    warn_of_flat_flames(s);
+    for (const auto& warning : scenario_warnings(s.scenario, s.inputs)) s.report.warn(warning);
     if (s.inputs.modelled) {
-        for (const auto& warning : s.inputs.modelled->warnings) s.report.warn(warning);
         record_spread(s.report, *s.inputs.modelled);
         const auto print = s.fingerprints.state(s.inputs.frames.back().time_s);
         if (!is_current(s.options.output / "spread" / "arrival.tif", print, s.options))

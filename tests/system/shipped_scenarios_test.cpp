@@ -54,6 +54,34 @@ TEST(Minimal, WritesEverythingTheContractNames) {
     }
 }
 
+TEST(Check, TellsTheSizeOfTheFilesAndWhatMayNotBeMeant) {
+    const ScratchFolder scratch;
+    std::ofstream(scratch / "late.yaml") << fmt::format(R"(pyroscene: 1
+inputs: {{terrain: {{file: {0}/dem.tif}}, heat_flux: {{file: {0}/heat_flux.tif}}}}
+start: 2021-08-12T20:00:00Z
+products: [radiance, truth]
+acquisitions:
+  - {{id: now, sensor: {0}/camera.yaml, time_s: 150, platform: {{over: centre, altitude_agl_m: 300}}}}
+  - {{id: late, sensor: {0}/camera.yaml, time_s: 5000, platform: {{over: centre, altitude_agl_m: 300}}}}
+)",
+                                                        (source_folder() / "scenarios" / "minimal").string());
+    const auto result = pipeline::check(scenario::load(scratch / "late.yaml"));
+    EXPECT_TRUE(result.problems.empty());
+    ASSERT_EQ(result.warnings.size(), 1U);
+    EXPECT_EQ(result.warnings[0],
+              "acquisition 'late' is 4880 s after the last frame (120 s): what burned then still flames in it");
+    run_in(scratch / "late.yaml", scratch / "out");
+    double bytes = 0.0;
+    for (const char* file : {"radiance.tif", "truth.tif", "geolocation.tif"}) {
+        const auto image = gis::read_image(scratch / "out" / "now" / file);
+        bytes += static_cast<double>(image.pixels.size()) * (std::string(file) == "geolocation.tif" ? 8.0 : 4.0);
+    }
+    EXPECT_NE(
+        result.summary.find(fmt::format("radiance, geolocation and truth of {:.2g} MB before compression", 1e-6 * bytes)),
+        std::string::npos)
+        << result.summary << bytes;
+}
+
 TEST(Minimal, TermsSumToTheTotalAndFractionsToOne) {
     const ScratchFolder scratch;
     run_in(scenario_file("minimal"), scratch / "out");
