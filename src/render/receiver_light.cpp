@@ -294,17 +294,17 @@ void ReceiverLight::find_horizons(Vec3 from_m, double dx, double dy) {
 /// Range of slopes in which the columns show flame above the terrain; `low` is at least what it was. False when empty.
 bool ReceiverLight::slopes_of_flame(Vec3 from_m, double& low, double& high) const {
     const fire::VoxelGrid& grid = shared_->flame.grid();
-    const auto slope = [](double height_m, double run_m) {
-        return run_m > 0.0 ? height_m / run_m : std::copysign(std::numeric_limits<double>::infinity(), height_m);
-    };
-    double lowest = std::numeric_limits<double>::infinity();
-    high = -lowest;
+    constexpr double kVertical = std::numeric_limits<double>::infinity();
+    double lowest = kVertical;
+    high = -kVertical;
     for (const PlaneColumn& c : columns_) {
         const double bottom_m = grid.corner_m.z + c.k_begin * grid.dz_m - from_m.z, enter_m = c.enter_m, leave_m = c.leave_m;
         const double top_m = grid.corner_m.z + c.k_end * grid.dz_m - from_m.z;
-        high = std::max(high, slope(top_m, top_m > 0.0 ? enter_m : leave_m));
-        lowest =
-            std::min(lowest, std::max(slope(bottom_m, bottom_m > 0.0 ? leave_m : enter_m), static_cast<double>(c.horizon)));
+        // Over the receiver itself the way to the column is none: flame from the ground up is seen in all slopes.
+        const double to_bottom = bottom_m > 0.0 ? bottom_m / leave_m : enter_m > 0.0 ? bottom_m / enter_m : -kVertical;
+        const double to_top = top_m <= 0.0 ? top_m / leave_m : enter_m > 0.0 ? top_m / enter_m : kVertical;
+        lowest = std::min(lowest, std::max(to_bottom, static_cast<double>(c.horizon)));
+        high = std::max(high, to_top);
     }
     low = std::max(low, lowest);
     return low < high;

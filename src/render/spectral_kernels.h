@@ -42,6 +42,9 @@ struct SpectralKernels {
     void (*add_product)(int n, float a, const float* x, const float* y, float* out);
     /// out += x y z
     void (*add_product3)(int n, const float* x, const float* y, const float* z, float* out);
+    /// Light between four places, 1 / sqrt(out) = sum_j weight[j] / sqrt(row_j), 0 where all are dark (below 1e-30); false where
+    /// that has no meaning: some are dark, or the sum is not positive.
+    bool (*light_between)(int n, const float* const* rows, const float* weight, float* out);
     /// out = a x y
     void (*product)(int n, float a, const float* x, const float* y, float* out);
     /// out = (sum of the `count` spectra in `parts` + sun correlation) transmittance scale + path   (eq 4.44)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "base/constants.h"
@@ -149,6 +150,46 @@ TEST(GroundLight, RidgeHidesTheFlameBehindIt) {
     const auto hidden = render::ground_irradiance(scene.scene(), {});
     EXPECT_EQ(irradiance_at(hidden, 4, 20), 0.0F);  // far behind the ridge
     EXPECT_GT(irradiance_at(hidden, 4, 45), 1.0F);  // between ridge and flame
+}
+
+TEST(GroundLight, FlameThatStandsOnTheGroundIsSeenFromUnderIt) {
+    // In the middle of a wide opaque block: the black body's pi B, whether the voxels begin at the ground or below it.
+    for (const double bottom_m : {0.0, -2.0}) {
+        TestScene scene({.cols = 9, .rows = 9, .cell_m = 10.0, .ground_K = 300.0, .absorption_per_m = 10.0});
+        scene.set_flame({.corner_m = {0.0, 0.0, bottom_m}, .nx = 9, .ny = 9, .dx_m = 10.0, .dy_m = 10.0, .dz_m = 4.0},
+                        box_of_voxels(9, 9, 5, 900.0));
+        const auto light = render::ground_irradiance(scene.scene(), {});
+        EXPECT_NEAR(irradiance_at(light, 4, 4) / (kPi * planck_radiance(4.0, 900.0)), 1.0, 1e-4) << bottom_m;
+    }
+}
+
+TEST(GroundLight, InterpolatedReceiversAreAsGoodAsTracedOnes) {
+    // A bent front of uneven flames. Ground that is off level by two millimetres in one corner is traced cell by cell.
+    TestScene scene({.cols = 100, .rows = 90, .cell_m = 20.0});
+    std::vector<fire::FlameVoxel> voxels;
+    for (int i = 0; i < 40; ++i) {
+        const int j = 20 + i * i / 100, height = 2 + i * 7 % 5;
+        for (int k = 0; k < height; ++k) voxels.push_back({i, j, k, 1.0F, static_cast<float>(1150 - 30 * k)});
+    }
+    scene.set_flame({.corner_m = {400.0, 400.0, 0.0}, .nx = 50, .ny = 50, .dx_m = 20.0, .dy_m = 20.0, .dz_m = 5.0}, voxels);
+    const auto level = render::ground_irradiance(scene.scene(), {.reach_m = 5000.0});
+    scene.set_heights([](double x, double y) { return x < 20.0 && y < 20.0 ? 2e-3 : 0.0; });
+    const auto traced = render::ground_irradiance(scene.scene(), {.reach_m = 5000.0});
+    const auto fine = render::ground_irradiance(scene.scene(), {.directions = 1024, .reach_m = 5000.0});
+    const auto error = [&](const render::GroundIrradiance& light) {
+        double sum = 0.0, squares = 0.0, count = 0.0;
+        for (int r = 0; r < 87; ++r) {
+            for (int c = 0; c < 100; ++c) {
+                const double relative = irradiance_at(light, r, c) / irradiance_at(fine, r, c) - 1.0;
+                sum += relative, squares += relative * relative, count += 1.0;
+            }
+        }
+        return std::array<double, 2>{sum / count, std::sqrt(squares / count)};
+    };
+    const auto [mean, rms] = error(level);
+    const auto [traced_mean, traced_rms] = error(traced);
+    EXPECT_LT(std::abs(mean), 0.01);
+    EXPECT_LT(rms, traced_rms);
 }
 
 TEST(GroundLight, ReachBoundsTheReceivers) {

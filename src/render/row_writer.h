@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "render/ground_mix.h"
+#include "render/point_sources.h"
+#include "render/receiver_lattice.h"
+#include "render/receiver_light.h"
+#include "render/scene_tables.h"
+#include "render/smoke_shadow.h"
+#include "render/terrain_sight.h"
+
+namespace pyroscene::render {
+
+/// What the rows of GroundIrradiance become: the first look in full, and what the reflections between slopes need.
+struct Rows {
+    GroundIrradiance& light;
+    std::vector<std::vector<TerrainPatch>> patches;  ///< [row]; empty on a plane
+    std::vector<float> through;                      ///< [row][lambda] share that flames let through; only with patches
+    std::vector<float> opacity;                      ///< [row][lambda] of flames [sr]; only where rows are interpolated
+    const SmokeShadow* smoke = nullptr;              ///< null without a plume
+};
+
+/// From what a receiver sees to its irradiances on the transport grid. One per thread.
+class RowWriter {
+public:
+    /// \param points  null: hemisphere quadrature
+    RowWriter(const LightScene& shared, const SceneTables& tables, const PointSources* points);
+
+    /// Irradiance by flames alone; adds to `irradiance` and leaves their opacity for write().
+    void flame(const Receiver& receiver, float* irradiance);
+    void write(const Receiver& receiver, const LatticeReceiver& place, Rows& out);
+
+private:
+    bool interpolate(const LatticeReceiver& place, Rows& out);
+    void sum_flame(float* irradiance);
+    double look_at_terrain(const Receiver& receiver, const std::vector<std::int32_t>& row_of_cell,
+                           std::vector<TerrainPatch>& patches);
+
+    const LightScene* shared_;
+    const PointSources* points_;  ///< null: hemisphere quadrature
+    const SceneTables* tables_;
+    const SpectralKernels* kernels_;
+    ReceiverLight light_;
+    GroundMix mix_;
+    GroundSpectra terrain_;
+    SmokySky smoky_sky_;
+    std::vector<float> through_, opacity_, of_moment_, dimmed_sky_;
+};
+
+}  // namespace pyroscene::render
