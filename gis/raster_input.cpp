@@ -27,6 +27,12 @@ BandInfo band_info(GDALRasterBand& band) {
     return info;
 }
 
+std::vector<BandInfo> band_list(GDALDataset& dataset) {
+    std::vector<BandInfo> bands;
+    for (int b = 1; b <= dataset.GetRasterCount(); ++b) bands.push_back(band_info(*dataset.GetRasterBand(b)));
+    return bands;
+}
+
 }  // namespace
 
 bool is_in_memory(const std::filesystem::path& name) { return name.string().starts_with("/vsimem/"); }
@@ -43,10 +49,12 @@ RasterInfo read_info(const std::filesystem::path& path) {
         info.crs_wkt = crs.wkt;
         info.geographic = crs.geographic;
     }
-    for (int b = 1; b <= dataset->GetRasterCount(); ++b) info.bands.push_back(band_info(*dataset->GetRasterBand(b)));
+    info.bands = band_list(*dataset);
     info.metadata = default_metadata(*dataset);
     return info;
 }
+
+std::vector<BandInfo> read_band_list(const std::filesystem::path& path) { return band_list(*open_raster(path)); }
 
 Raster<float> read_band(const BandRequest& request, const MapGrid& grid) {
     SourceBand source = open_band(request.file, request.band, request.unit);

@@ -44,6 +44,8 @@ bool is_in_memory(const std::filesystem::path& name);
 
 /// Opens anything GDAL reads. Throws an input error: missing file, not a raster, no georeference.
 RasterInfo read_info(const std::filesystem::path& path);
+/// Only its bands, also of a raster without georeference: costs a fraction, since no CRS is looked up.
+std::vector<BandInfo> read_band_list(const std::filesystem::path& path);
 
 /// The map grid of a scene: the terrain's own when it is projected, north-up and square and neither `crs` nor `cell_m`
 /// asks otherwise; else the terrain's footprint on the requested CRS (or its UTM/UPS zone) with the requested or native cell.

@@ -39,24 +39,30 @@ CrsInfo require_crs(GDALDataset& dataset, const std::string& subject) {
 SourceBand open_band(const std::filesystem::path& path, int band, const std::string& unit) {
     SourceBand source;
     source.dataset = open_raster(path);
+    source.cols = source.dataset->GetRasterXSize();
+    source.rows = source.dataset->GetRasterYSize();
+    source.geotransform = require_geotransform(*source.dataset, path.string());
+    source.crs = require_crs(*source.dataset, path.string());
+    choose_band(source, path, band, unit);
+    return source;
+}
+
+void choose_band(SourceBand& source, const std::filesystem::path& path, int band, const std::string& unit) {
     const int count = source.dataset->GetRasterCount();
     if (band < 1 || band > count)
         throw input_error(path.string(),
                           fmt::format("band {} is asked for, found {} band{}", band, count, count == 1 ? "" : "s"));
     source.subject = fmt::format("{}, band {}", path.string(), band);
     source.band = band;
-    source.cols = source.dataset->GetRasterXSize();
-    source.rows = source.dataset->GetRasterYSize();
-    source.geotransform = require_geotransform(*source.dataset, path.string());
-    source.crs = require_crs(*source.dataset, path.string());
-    if (unit.empty()) return source;
+    source.scale = 1.0;
+    source.offset = 0.0;
+    if (unit.empty()) return;
     GDALRasterBand* pixels = source.dataset->GetRasterBand(band);
     if (GDALDataTypeIsComplex(pixels->GetRasterDataType()) != 0)
         throw input_error(source.subject, "holds complex numbers; expected real ones");
     const UnitConversion to_canonical = require_unit(source.subject, pixels->GetUnitType(), unit);
     source.scale = to_canonical.scale * pixels->GetScale();
     source.offset = to_canonical.scale * pixels->GetOffset() + to_canonical.offset;
-    return source;
 }
 
 namespace {

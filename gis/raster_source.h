@@ -36,6 +36,9 @@ struct PixelWindow {
 /// Input errors: file, georeference or CRS missing, too few bands, unit of another quantity.
 SourceBand open_band(const std::filesystem::path& path, int band, const std::string& unit);
 
+/// Turns to another band of the same file. Input errors as above.
+void choose_band(SourceBand& source, const std::filesystem::path& path, int band, const std::string& unit);
+
 /// Georeference of a dataset; input error without one.
 std::array<double, 6> require_geotransform(GDALDataset& dataset, const std::string& subject);
 /// CRS of a dataset; input error when there is none or it is neither geographic nor projected.

@@ -5,6 +5,7 @@
 
 #include "gis/crs.h"
 #include "gis/raster_input.h"
+#include "gis/resample.h"
 
 namespace pyroscene::gis {
 namespace {
@@ -64,15 +65,15 @@ void rotate(Wind& wind, const AxisTurn& turn) {
 }  // namespace
 
 Wind read_wind(const std::filesystem::path& file, int u_band, int v_band, const MapGrid& grid) {
-    const auto component = [&](int band, const char* name) {
-        return read_band({.file = file, .band = band, .resampling = Resampling::Bilinear, .name = name, .unit = "m s-1"},
-                         grid);
-    };
-    Wind wind{.east_m_s = component(u_band, "wind_east"), .north_m_s = component(v_band, "wind_north")};
-    const CrsInfo file_crs = parse_crs(read_info(file).crs_wkt, file.string());
+    constexpr const char* kUnit = "m s-1";
+    SourceBand source = open_band(file, u_band, kUnit);
+    Wind wind{.east_m_s = Raster<float>(grid, "wind_east", kUnit), .north_m_s = Raster<float>(grid, "wind_north", kUnit)};
+    wind.east_m_s.values = resample(source, grid, Resampling::Bilinear);
+    choose_band(source, file, v_band, kUnit);
+    wind.north_m_s.values = resample(source, grid, Resampling::Bilinear);
     // Cells between the nodes of the turn: it changes by about 1e-6 rad over 16 cells of 30 m.
     constexpr int kNodeStep = 16;
-    if (!same_crs(file_crs.wkt, grid.crs_wkt)) rotate(wind, AxisTurn(grid, file_crs, kNodeStep));
+    if (!same_crs(source.crs.wkt, grid.crs_wkt)) rotate(wind, AxisTurn(grid, source.crs, kNodeStep));
     for (std::size_t i = 0; i < grid.size(); ++i)
         if (std::isnan(wind.east_m_s.values[i]) || std::isnan(wind.north_m_s.values[i]))
             wind.east_m_s.values[i] = wind.north_m_s.values[i] = std::numeric_limits<float>::quiet_NaN();

@@ -94,8 +94,8 @@ struct StationWind {
 std::vector<FrameSource> frame_bands(const RasterSource& source) {
     std::vector<FrameSource> frames;
     for (const auto& file : source.files) {
-        const auto info = gis::read_info(file);
-        const int count = static_cast<int>(info.bands.size());
+        const auto in_file = gis::read_band_list(file);
+        const int count = static_cast<int>(in_file.size());
         std::vector<int> bands = source.bands;
         if (bands.empty())
             for (int b = 1; b <= count; ++b) bands.push_back(b);
@@ -103,7 +103,7 @@ std::vector<FrameSource> frame_bands(const RasterSource& source) {
             if (band > count)
                 throw input_error(file.string(), fmt::format("band {} asked for, but the file has {}", band, count));
             FrameSource frame{file, band, std::nan("")};
-            const auto& metadata = info.bands[static_cast<std::size_t>(band - 1)].metadata;
+            const auto& metadata = in_file[static_cast<std::size_t>(band - 1)].metadata;
             if (const auto it = metadata.find("time_s"); it != metadata.end())
                 frame.time_s = parse_number(it->second, fmt::format("{}: band {}: time_s", file.string(), band));
             frames.push_back(frame);

@@ -17,14 +17,6 @@ namespace {
 
 double fourth_power(double x) { return x * x * x * x; }
 
-double heat_release_W(const scenario::Scenario& scenario, const inputs::SceneInputs& in, double time_s) {
-    const auto frame = inputs::load_frame(scenario, in, inputs::frame_at(in.frames, time_s, "energy"));
-    double sum = 0.0;
-    for (const float flux : frame.heat_flux_W_m2.values)
-        if (flux > 0.0F) sum += flux;
-    return sum * in.grid.cell_area_m2();
-}
-
 double front_power_W(const FireScene& scene) {
     const auto& surface = scene.surface;
     double area = 0.0;
@@ -52,7 +44,7 @@ double radiated_W(double front_W, const FlamePower& flame) { return front_W * (1
 
 /// Fuel that burnt up to the last frame [kg].
 double fuel_consumed_kg(const scenario::RasterSource& source, const inputs::SceneInputs& in, const fire::FireState& last) {
-    const auto bands = gis::read_info(source.files.back()).bands.size();
+    const auto bands = gis::read_band_list(source.files.back()).size();
     const auto read = [&](const std::filesystem::path& file, int band) {
         return gis::read_band({file, band, gis::Resampling::Conserve, "fuel load", "kg m-2"}, in.grid);
     };
@@ -73,11 +65,11 @@ double fuel_consumed_kg(const scenario::RasterSource& source, const inputs::Scen
 
 }  // namespace
 
-void record_energy(RunReport& report, const scenario::Scenario& scenario, const inputs::SceneInputs& in,
-                   const fire::FireState& state, const FireScene& scene, const std::string& acquisition_id) {
+void record_energy(RunReport& report, const scenario::Scenario& scenario, const fire::FireState& state,
+                   const FireScene& scene, const std::string& acquisition_id) {
     const double front_W = front_power_W(scene);
     const FlamePower flame = flame_power(scenario, scene);
-    const double released_W = heat_release_W(scenario, in, state.time_s);
+    const double released_W = state.heat_release_W;
 
     const auto prefix = "energy/" + acquisition_id + "/";
     report.record(prefix + "heat_release_W", released_W);

@@ -12,8 +12,8 @@ namespace pyroscene::pipeline {
 /// flame_W, flame_gas_W and smoke_W (flame_power.h), radiant_fraction = (front (1 - e) + flame + gas) / release,
 /// where e is the emissivity of the flame that stands over the front.
 /// Warns when the radiant fraction of front and flame exceeds 0.35 (published for wildland fire: 0.10-0.25) under default physics.
-void record_energy(RunReport& report, const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
-                   const fire::FireState& state, const FireScene& scene, const std::string& acquisition_id);
+void record_energy(RunReport& report, const scenario::Scenario& scenario, const fire::FireState& state,
+                   const FireScene& scene, const std::string& acquisition_id);
 
 /// Scales soot, or temperature, of the flame so that front and flame radiate flame.radiant_fraction of the heat that the frame
 /// releases, gas included; does nothing without that key. By bisection to 1e-7 of soot or temperature.

@@ -61,7 +61,7 @@ fire::FlameField plume_of_input(const Scenario& scenario, const fire::PlumeParam
                                 double time_s) {
     const PlumeSource& source = *scenario.inputs.plume;
     const auto file = source.of_wrf ? inputs::wrf_plume_levels(scenario, time_s) : file_at(source, time_s);
-    const auto bands = gis::read_info(file).bands.size();
+    const auto bands = gis::read_band_list(file).size();
     if (bands != source.levels_m.size())
         throw input_error("inputs.plume.levels_m", fmt::format("{} heights, but '{}' has {} bands; each is a level",
                                                                source.levels_m.size(), file.string(), bands));

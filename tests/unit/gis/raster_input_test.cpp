@@ -182,6 +182,10 @@ TEST(ReadInfo, TellsWhatTheFileSays) {
     EXPECT_EQ(info.bands[0].scale, 2.0);
     EXPECT_EQ(info.bands[0].offset, 1.0);
     EXPECT_EQ(info.metadata.at("AREA_OR_POINT"), "Area");
+    const auto bands = read_band_list(folder / "a.tif");
+    ASSERT_EQ(bands.size(), 2u);
+    EXPECT_EQ(bands[0].unit, "W m-2");
+    EXPECT_EQ(bands[0].scale, 2.0);
 }
 
 TEST(ReadInfo, ACrsMayBeMissingButNotTheGeoreference) {
@@ -192,6 +196,7 @@ TEST(ReadInfo, ACrsMayBeMissingButNotTheGeoreference) {
     source.georeferenced = false;
     source.write(folder / "b.tif");
     EXPECT_NE(input_error_of([&] { (void)read_info(folder / "b.tif"); }).find("has no georeference"), std::string::npos);
+    EXPECT_EQ(read_band_list(folder / "b.tif").size(), 1u);
 }
 
 }  // namespace
