@@ -1,5 +1,6 @@
 #include "gis/cog_tags.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -52,11 +53,16 @@ void CogTags::complete(const std::filesystem::path& file) const {
     if (reservation_.empty()) return;
     std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
     // The header holds this text, the names and the tile index: far below this bound for any raster we write.
-    constexpr std::streamsize kMostHeader = 64 << 20;
-    std::string header(static_cast<std::size_t>(kMostHeader), '\0');
-    stream.read(header.data(), kMostHeader);
-    header.resize(static_cast<std::size_t>(stream.gcount()));
-    const auto position = header.find(reservation_);
+    constexpr std::size_t kMostHeader = 64 << 20, kPiece = 1 << 18;
+    std::string header;
+    std::size_t position = std::string::npos;
+    while (position == std::string::npos && stream && header.size() < kMostHeader) {
+        const std::size_t known = header.size();
+        header.resize(known + kPiece);
+        stream.read(header.data() + known, static_cast<std::streamsize>(kPiece));
+        header.resize(known + static_cast<std::size_t>(stream.gcount()));
+        position = header.find(reservation_, known - std::min(known, reservation_.size()));
+    }
     if (position == std::string::npos)
         throw runtime_error(file.string(), "metadata cannot be placed: reservation not found");
     stream.clear();

@@ -39,9 +39,10 @@ ColourScale scale_of(const QuicklookPanel& panel) {
     ColourScale scale;
     if (panel.lowest && panel.highest) return {*panel.lowest, *panel.highest, panel.logarithmic && *panel.lowest > 0.0};
     if (valid.empty()) return scale;
-    std::sort(valid.begin(), valid.end());
-    scale.low = valid[valid.size() / 200];
-    scale.high = valid.back();
+    const auto low = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() / 200);
+    std::nth_element(valid.begin(), low, valid.end());
+    scale.low = *low;
+    scale.high = *std::max_element(low, valid.end());
     if (panel.logarithmic && scale.high > 0.0) {
         scale.low = std::max(scale.low, 1e-6 * scale.high);
         scale.logarithmic = scale.high > 20.0 * scale.low;
