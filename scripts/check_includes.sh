@@ -33,7 +33,7 @@ BEGIN {
     foreign["config"]   = "^yaml-cpp/"
     foreign["render"]   = "^(embree3/|tbb/|oneapi/tbb)"
     foreign["inputs"]   = "^(tbb/|oneapi/tbb)"
-    foreign["drawing"]  = "^(opencv2/|openssl/)"
+    foreign["drawing"]  = "^(opencv2/|openssl/|png[.]h$)"
     foreign["imagery"]  = "^(tbb/|oneapi/tbb|opencv2/|nlohmann/)"
     foreign["pipeline"] = "^(tbb/|oneapi/tbb|opencv2/|openvdb/|nlohmann/|openssl/)"
     foreign["cli"]      = "^(CLI/|spdlog/)"

@@ -9,7 +9,7 @@ build_packages=(
     g++ cmake ninja-build pkg-config
     libgdal-dev gdal-bin libproj-dev proj-data libgeographiclib-dev # rasters, map projections, geodesics
     libembree-dev libtbb-dev                                        # ray tracer, threads
-    libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev # quick-looks; libopencv-dev would pull in everything
+    libopencv-core-dev libopencv-imgproc-dev libpng-dev             # quick-looks; libopencv-dev would pull in everything
     libnlopt-cxx-dev libnlopt-dev libeigen3-dev libboost-math-dev   # minimisers, linear algebra, distributions
     libyaml-cpp-dev nlohmann-json3-dev libssl-dev                   # scenarios, reports, checksums
     libhdf4-alt-dev                                                 # MODIS level 1B; comes with libgdal-dev anyway

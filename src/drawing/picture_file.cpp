@@ -1,11 +1,10 @@
 #include "drawing/picture_file.h"
 
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
+#include <png.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
@@ -14,21 +13,24 @@
 namespace pyroscene::drawing {
 
 void write_picture_file(const std::filesystem::path& path, const cv::Mat& picture) {
-    AtomicFile file(path);
-    bool written = false;
-    try {
-        written = cv::imwrite(file.path().string(), picture);
-    } catch (const cv::Exception&) {
-        written = false;
-    }
-    if (!written) throw runtime_error(path.string(), "cannot be written");
-    file.commit();
+    if (path.extension() != ".png") throw runtime_error(path.string(), "cannot be written: pictures are PNG, name it *.png");
+    write_text_file(path, png_of(picture));
 }
 
 std::string png_of(const cv::Mat& picture) {
-    std::vector<unsigned char> bytes;
-    if (!cv::imencode(".png", picture, bytes)) throw runtime_error("picture", "cannot be encoded as PNG");
-    return {bytes.begin(), bytes.end()};
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(picture.cols);
+    image.height = static_cast<png_uint_32>(picture.rows);
+    image.format = picture.channels() == 3 ? PNG_FORMAT_BGR : PNG_FORMAT_GRAY;
+    image.flags = PNG_IMAGE_FLAG_FAST;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string bytes(size, '\0');
+    const auto row_bytes = static_cast<png_int_32>(picture.step[0]);
+    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.data, row_bytes, nullptr) == 0)
+        throw runtime_error("picture", fmt::format("cannot be encoded as PNG: {}", image.message));
+    bytes.resize(size);
+    return bytes;
 }
 
 void draw_scale_bar(cv::Mat& canvas, int x, int y, int picture_width_px, double metres_per_pixel) {
