@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 
 #include "base/error.h"
@@ -24,9 +25,16 @@ std::optional<double> micrometres(const char* value, const char* unit) {
     return conversion ? std::optional(conversion->scale * number) : std::nullopt;
 }
 
+/// Whether pixels may be invalid that do not hold NaN.
+bool has_mask(GDALRasterBand& band) {
+    const int flags = band.GetMaskFlags();
+    if ((flags & GMF_ALL_VALID) != 0) return false;
+    return flags != GMF_NODATA || !std::isnan(band.GetNoDataValue());
+}
+
 void read_pixels(GDALRasterBand& band, double* out, int cols, int rows, const std::string& subject,
                  const GdalErrors& errors) {
-    const bool masked = (band.GetMaskFlags() & GMF_ALL_VALID) == 0;
+    const bool masked = has_mask(band);
     std::vector<unsigned char> mask(masked ? static_cast<std::size_t>(cols) : 0);
     const double scale = band.GetScale(), offset = band.GetOffset();
     // Rows are read in blocks' height so that every tile is decompressed once (its rows stay in GDAL's cache).
@@ -40,6 +48,12 @@ void read_pixels(GDALRasterBand& band, double* out, int cols, int rows, const st
             out[col] = valid ? scale * out[col] + offset : std::numeric_limits<double>::quiet_NaN();
         }
     }
+}
+
+GDALRasterBand& band_of(GDALDataset& dataset, int band, const std::string& subject) {
+    if (band < 1 || band > dataset.GetRasterCount())
+        throw input_error(subject, fmt::format("band {} is asked for, found {}", band, dataset.GetRasterCount()));
+    return *dataset.GetRasterBand(band);
 }
 
 }  // namespace
@@ -76,6 +90,25 @@ ImageFile read_image(const std::filesystem::path& path, int most_bands) {
         read_pixels(band, out, image.cols, image.rows, path.string(), errors);
     }
     return image;
+}
+
+std::vector<double> read_image_band(const std::filesystem::path& path, int band) {
+    const DatasetPtr dataset = open_raster(path);
+    const GdalErrors errors;
+    const int cols = dataset->GetRasterXSize(), rows = dataset->GetRasterYSize();
+    std::vector<double> pixels(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
+    read_pixels(band_of(*dataset, band, path.string()), pixels.data(), cols, rows, path.string(), errors);
+    return pixels;
+}
+
+double read_image_pixel(const std::filesystem::path& path, int band, int col, int row) {
+    const DatasetPtr dataset = open_raster(path);
+    double value = std::nan("");
+    const GdalErrors errors;
+    if (band_of(*dataset, band, path.string()).RasterIO(GF_Read, col, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr) !=
+        CE_None)
+        throw input_error(path.string(), "cannot be read: " + errors.message());
+    return value;
 }
 
 std::optional<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& path) {

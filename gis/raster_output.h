@@ -87,6 +87,10 @@ struct ImageFile {
 };
 /// \param most_bands  only that many from the first on
 ImageFile read_image(const std::filesystem::path& path, int most_bands = std::numeric_limits<int>::max());
+/// One band of it, [row][col]. \param band  from 1
+std::vector<double> read_image_band(const std::filesystem::path& path, int band);
+/// One pixel of it.
+double read_image_pixel(const std::filesystem::path& path, int band, int col, int row);
 /// Only the default-domain metadata; nullopt when the file cannot be opened.
 std::optional<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& path);
 

@@ -265,13 +265,12 @@ StacImage stac_image(const ProductJob& job, const RenderedImage& r, const MapGri
     image.footprint_lon_lat = footprint(r);
     image.gsd_m = std::round(r.gsd_m * 100.0) / 100.0;
     image.ortho_grid = grid;
-    const std::size_t centre = static_cast<std::size_t>(r.lines / 2) * static_cast<std::size_t>(r.samples) +
-                               static_cast<std::size_t>(r.samples / 2);
+    const auto at_centre = [&](GeolocationPlane p) { return r.geolocation.at(p, r.samples / 2, r.lines / 2); };
     const auto finite_or_zero = [](double v) { return std::isfinite(v) ? v : 0.0; };
-    image.incidence_deg = finite_or_zero(r.where(kViewZenith)[centre]);
-    image.off_nadir_deg = off_nadir_deg(image.incidence_deg, finite_or_zero(r.where(kRange)[centre]));
-    image.sun_azimuth_deg = finite_or_zero(r.where(kSunAzimuth)[centre]);
-    image.sun_elevation_deg = finite_or_zero(90.0 - r.where(kSunZenith)[centre]);
+    image.incidence_deg = finite_or_zero(at_centre(kViewZenith));
+    image.off_nadir_deg = off_nadir_deg(image.incidence_deg, finite_or_zero(at_centre(kRange)));
+    image.sun_azimuth_deg = finite_or_zero(at_centre(kSunAzimuth));
+    image.sun_elevation_deg = finite_or_zero(90.0 - at_centre(kSunZenith));
     for (const auto& entry : std::filesystem::directory_iterator(job.files.folder)) {
         const auto name = entry.path().filename().string();
         const bool mine = job.files.suffix.empty() || entry.path().stem().string().ends_with(job.files.suffix);

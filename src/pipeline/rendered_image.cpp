@@ -6,6 +6,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
 
 namespace pyroscene::pipeline {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Longitudes and latitudes become map coordinates in place; PROJ wants a transformation for each thread.
 void to_map(const std::string& crs_wkt, std::span<double> x, std::span<double> y) {
     tbb::enumerable_thread_specific<gis::MapProjection> projections([&] { return gis::MapProjection(crs_wkt); });
-    constexpr std::size_t kGrain = 1U << 16U;  // making a transformation costs as much as using it a few thousand times
+    constexpr std::size_t kGrain = 1U << 14U;  // making a transformation costs as much as using it a few thousand times
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x.size(), kGrain), [&](const auto& part) {
         projections.local().to_map(x.subspan(part.begin(), part.size()), y.subspan(part.begin(), part.size()));
     });
@@ -48,18 +49,35 @@ void measure_pixels(RenderedImage& r) {
 
 }  // namespace
 
+void GeolocationFile::read(std::initializer_list<GeolocationPlane> wanted) const {
+    tbb::parallel_for_each(wanted, [&](GeolocationPlane p) { (void)plane(p); });
+}
+
+std::span<const double> GeolocationFile::plane(GeolocationPlane p) const {
+    auto& plane = planes_[p];
+    if (plane.empty()) plane = gis::read_image_band(path_, p + 1);
+    return plane;
+}
+
+double GeolocationFile::at(GeolocationPlane p, int sample, int line) const {
+    return gis::read_image_pixel(path_, p + 1, sample, line);
+}
+
 RenderedImage read_ground(const ProductJob& job) {
     RenderedImage r;
-    r.geolocation = gis::read_image(job.files.geolocation());
-    r.samples = r.geolocation.cols;
-    r.lines = r.geolocation.rows;
+    const auto file = job.files.geolocation();
+    r.geolocation = GeolocationFile(file);
+    const auto info = gis::ImageStream(file).info();
+    r.samples = info.cols;
+    r.lines = info.rows;
     r.n = static_cast<std::size_t>(r.samples) * static_cast<std::size_t>(r.lines);
+    r.geolocation.read({kLongitude, kLatitude});
     r.x_m.assign(r.where(kLongitude).begin(), r.where(kLongitude).end());
     r.y_m.assign(r.where(kLatitude).begin(), r.where(kLatitude).end());
     to_map(job.inputs.grid.crs_wkt, r.x_m, r.y_m);
     const auto number = [&](const char* key) {
-        const auto found = r.geolocation.metadata.find(key);
-        return found == r.geolocation.metadata.end() ? 0 : std::stoi(found->second);
+        const auto found = info.metadata.find(key);
+        return found == info.metadata.end() ? 0 : std::stoi(found->second);
     };
     r.scans = {number("LINES_PER_SCAN"), number("FIRST_LINE_OF_SCAN")};
     measure_pixels(r);

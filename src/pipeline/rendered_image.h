@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,26 +22,41 @@ enum GeolocationPlane {
     kSunZenith,
     kSunAzimuth,
     kRange,
-    kPixelTime
+    kPixelTime,
+    kGeolocationPlanes
 };
 /// Positions of the planes in truth.tif that products use.
 enum TruthPlane { kFlame, kFront, kScar, kBackground, kSmoke, kGroundTemperature, kFlameTemperature, kExitance };
 
-/// One rendered group read back, with its pixels on the map. Radiance and truth stay in their files and are read a plane at a
-/// time.
+/// The planes of geolocation.tif, each read when it is first asked for. Not for several threads at once.
+class GeolocationFile {
+public:
+    GeolocationFile() = default;
+    explicit GeolocationFile(std::filesystem::path path) : path_(std::move(path)) {}
+
+    /// Reads planes ahead, at the same time.
+    void read(std::initializer_list<GeolocationPlane> wanted) const;
+    /// [line][sample], NaN = none
+    [[nodiscard]] std::span<const double> plane(GeolocationPlane p) const;
+    [[nodiscard]] double at(GeolocationPlane p, int sample, int line) const;
+
+private:
+    std::filesystem::path path_;
+    mutable std::array<std::vector<double>, kGeolocationPlanes> planes_;
+};
+
+/// One rendered group read back, with its pixels on the map. Everything else stays in its files and is read a plane at a time.
 struct RenderedImage {
     int samples = 0, lines = 0;
     std::size_t n = 0;
-    gis::ImageFile geolocation;
+    GeolocationFile geolocation;
     std::unique_ptr<gis::ImageStream> radiance, truth;  ///< null when not read, truth also when the scenario has none
     std::vector<double> x_m, y_m;                       ///< on the map of the scene, NaN = none
     double gsd_m = 0.0;                                 ///< median
     std::vector<float> pixel_area_m2;
     analysis::ScanLines scans;
 
-    [[nodiscard]] std::span<const double> where(GeolocationPlane p) const {
-        return std::span(geolocation.pixels).subspan(p * n, n);
-    }
+    [[nodiscard]] std::span<const double> where(GeolocationPlane p) const { return geolocation.plane(p); }
     [[nodiscard]] std::vector<float> truth_plane(std::size_t p) const { return truth->read_band(static_cast<int>(p) + 1); }
     [[nodiscard]] std::vector<float> radiance_plane(std::size_t band) const {
         return radiance->read_band(static_cast<int>(band) + 1);

@@ -391,6 +391,25 @@ TEST(ReadImage, GivesBackWhatWasWritten) {
         ASSERT_TRUE(image.pixels[i] == pixels[i] || (std::isnan(image.pixels[i]) && std::isnan(pixels[i])));
 }
 
+TEST(ReadImage, ABandOrAPixelIsThatOfTheWhole) {
+    const TempFolder folder;
+    OutputRaster raster = two_bands(70, 50);
+    raster.tile_rows = 16;
+    auto pixels = two_bands_of_pixels(70, 50);
+    pixels[3] = std::nanf("");
+    write_geotiff(folder / "a.tif", raster, std::span<const float>(pixels));
+    const auto second = read_image_band(folder / "a.tif", 2);
+    ASSERT_EQ(second.size(), 70u * 50u);
+    for (std::size_t i = 0; i < second.size(); ++i) {
+        const float written = pixels[second.size() + i];
+        ASSERT_TRUE(second[i] == written || (std::isnan(second[i]) && std::isnan(written))) << i;
+    }
+    EXPECT_EQ(read_image_pixel(folder / "a.tif", 2, 69, 49), pixels.back());
+    EXPECT_TRUE(std::isnan(read_image_pixel(folder / "a.tif", 1, 3, 0)));
+    EXPECT_THROW((void)read_image_band(folder / "a.tif", 3), Error);
+    EXPECT_THROW((void)read_image_pixel(folder / "a.tif", 0, 0, 0), Error);
+}
+
 TEST(ReadImage, UnderstandsNanometresAndScales) {
     const TempFolder folder;
     SourceRaster source{.type = "Int16", .nodata = -1.0, .scale = 0.01, .offset = 5.0};
