@@ -9,11 +9,8 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "base/files.h"
-#include "gis/netcdf_input.h"
 #include "pipeline/ground_reflectance.h"
 #include "pipeline/plume_scene.h"
-#include "radiometry/atmosphere.h"
 #include "radiometry/planck.h"
 #include "radiometry/soot.h"
 #include "radiometry/transport_grid.h"
@@ -45,22 +42,6 @@ std::array<double, 2> place(const Acquisition& acquisition, const inputs::SceneI
         throw input_error(subject(acquisition),
                           fmt::format("platform.over: fire, but nothing burns at {} s", state->time_s));
     return {x / n, y / n};
-}
-
-radiometry::AtmosphereSet load_atmosphere(const Scenario& scenario, radiometry::ElevationRange ground) {
-    const auto& source = scenario.atmosphere;
-    std::optional<gis::NetcdfFile> open;  // the variables of a file are asked for one after the other
-    const auto read = [&](const std::filesystem::path& path, const std::string& variable) {
-        if (!open || open->path() != path) open.emplace(path);
-        return open->read(variable).values;
-    };
-    if (source.file)
-        return {
-            {radiometry::make_atmosphere_table([&](const std::string& variable) { return read(*source.file, variable); })}};
-    return radiometry::make_atmosphere_set(source.model, source.visibility_km, ground,
-                                           [&](const std::string& file, const std::string& variable) {
-                                               return read(data_folder() / "atmosphere" / file, variable);
-                                           });
 }
 
 FlameGas flame_gas(const Scenario& scenario, const inputs::SceneInputs& in) {
@@ -161,59 +142,25 @@ FireScene make_fire_scene(const Scenario& scenario, const inputs::SceneInputs& i
 
 namespace {
 
-/// The air of an acquisition: what surrounds it, heights of the ground for which the path to the sensor is made, and its
-/// tables unless there is none.
-struct SceneAir {
+radiometry::AtmosphereConditions conditions_of(const Scenario& scenario, const OpticalTables& tables, double sensor_agl_m,
+                                               const radiometry::SunPosition& sun) {
     radiometry::AtmosphereConditions conditions;
-    std::vector<double> ground_heights_m;
-    std::optional<radiometry::AtmosphereSet> set;
-};
-
-/// Heights above `ground_m` that enclose the relief, from the highest down. They lie at round elevations, among them those of the
-/// shipped tables, between which these are bent.
-std::vector<double> ground_heights_m(const inputs::SceneInputs& in, double ground_m) {
-    constexpr double kStep_m = 250.0, kLevel_m = 20.0;
-    if (!(in.highest_m - in.lowest_m > kLevel_m)) return {0.0};
-    const double to_table_m = ground_m - in.mean_height_m;
-    std::vector<double> heights_m;
-    const double lowest = std::floor((in.lowest_m + to_table_m) / kStep_m);
-    for (double step = std::ceil((in.highest_m + to_table_m) / kStep_m); step >= lowest; step -= 1.0)
-        heights_m.push_back(step * kStep_m - ground_m);
-    return heights_m;
-}
-
-SceneAir scene_air(const Scenario& scenario, const inputs::SceneInputs& in, double sensor_agl_m,
-                   const radiometry::SunPosition& sun) {
-    SceneAir air;
-    air.conditions.sensor_altitude_agl_m = sensor_agl_m;
-    air.conditions.ground_elevation_m = scenario.atmosphere.ground_elevation_m.value_or(in.mean_height_m);
-    air.conditions.visibility_km = scenario.atmosphere.visibility_km;
-    air.conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
-    air.conditions.sun_distance_AU = sun.distance_AU;
-    if (scenario.atmosphere.model == "none" && !scenario.atmosphere.file) return air;
-    // A table of the user's is for one height of the ground.
-    const double ground_m = air.conditions.ground_elevation_m;
-    air.ground_heights_m = scenario.atmosphere.file ? std::vector<double>{0.0} : ground_heights_m(in, ground_m);
-    air.set = load_atmosphere(scenario, {ground_m + air.ground_heights_m.back(), ground_m + air.ground_heights_m.front()});
-    return air;
-}
-
-/// Tables of what flames hold beside soot; null where the scenario leaves it out.
-std::shared_ptr<const radiometry::FlameOptics> flame_tables(const Scenario& scenario) {
-    if (!scenario.flame.hot_gas || scenario.flame.grey_absorption_per_m || scenario.flame.off) return nullptr;
-    static const auto tables =
-        std::make_shared<const radiometry::FlameOptics>(radiometry::load_flame_optics(data_folder() / "optical"));
-    return tables;
+    conditions.sensor_altitude_agl_m = sensor_agl_m;
+    conditions.ground_elevation_m = tables.ground_elevation_m;
+    conditions.visibility_km = scenario.atmosphere.visibility_km;
+    conditions.sun_zenith_rad = scenario.render.sun ? sun.zenith_rad : kPi;
+    conditions.sun_distance_AU = sun.distance_AU;
+    return conditions;
 }
 
 /// Transport wavelengths; with hot gas they are picked for this scene's air, seen at a few angles.
-radiometry::SpectralGrid make_grid(const std::vector<Spectrum>& responses, const radiometry::FlameOptics* tables,
-                                   const FlameGas& gas, const SceneAir& air) {
-    if (tables == nullptr) return radiometry::make_spectral_grid(responses);
-    radiometry::SpectralStructure structure{tables, gas, {}};
-    if (air.set) {
+radiometry::SpectralGrid make_grid(const std::vector<Spectrum>& responses, const OpticalTables& tables, const FlameGas& gas,
+                                   const radiometry::AtmosphereConditions& conditions) {
+    if (!tables.flame) return radiometry::make_spectral_grid(responses);
+    radiometry::SpectralStructure structure{tables.flame.get(), gas, {}};
+    if (tables.air) {
         for (const double view_deg : {0.0, 25.0, 50.0})
-            structure.air.push_back(radiometry::evaluate(*air.set, {air.conditions, view_deg * kDegree_rad, kPi / 2.0}));
+            structure.air.push_back(radiometry::evaluate(*tables.air, {conditions, view_deg * kDegree_rad, kPi / 2.0}));
     }
     return radiometry::make_spectral_grid(responses, structure);
 }
@@ -267,27 +214,26 @@ double air_temperature_K(const radiometry::AtmosphereSet& set, radiometry::Atmos
 
 }  // namespace
 
-SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneInputs& in, const FireScene& fire,
-                                  const std::vector<Spectrum>& responses, double sensor_agl_m,
+SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneInputs& in, const OpticalTables& tables,
+                                  const FireScene& fire, const std::vector<Spectrum>& responses, double sensor_agl_m,
                                   const radiometry::SunPosition& sun, RunReport& report) {
     SpectralScene out;
     auto& optics = out.optics;
-    const SceneAir air = scene_air(scenario, in, sensor_agl_m, sun);
-    optics.flame_tables = flame_tables(scenario);
+    const auto conditions = conditions_of(scenario, tables, sensor_agl_m, sun);
+    optics.flame_tables = tables.flame;
     if (optics.flame_tables) optics.flame_gas = fire.gas;
-    out.grid = make_grid(responses, optics.flame_tables.get(), fire.gas, air);
+    out.grid = make_grid(responses, tables, fire.gas, conditions);
     const int n = out.grid.size();
     optics.lambda_count = n;
     optics.lambda_um = out.grid.lambda_um;
 
-    const auto soot = radiometry::load_soot_optics(data_folder() / "optical" / "soot_optics.csv");
     optics.gas = fire.gas;
     if (!fire.plume.empty()) set_plume_optics(scenario, out.grid, optics);
     optics.grey = scenario.flame.grey_absorption_per_m.has_value();
     for (const double lambda_um : optics.lambda_um)
         optics.flame_absorption_per_m.push_back(static_cast<float>(
             optics.grey ? *scenario.flame.grey_absorption_per_m
-                        : radiometry::soot_absorption_per_m(soot, lambda_um, fire.gas.soot_volume_fraction)));
+                        : radiometry::soot_absorption_per_m(tables.soot, lambda_um, fire.gas.soot_volume_fraction)));
 
     auto names = in.cover_names;
     out.surroundings_material = surroundings_material(scenario, in, names);
@@ -296,7 +242,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
     optics.material_count = static_cast<int>(names.size());
     optics.burnt_material = optics.material_count - 1;
     optics.burnt_emissivity = fire.burnt_emissivity;
-    if (!air.set) {
+    if (!tables.air) {
         out.atmosphere = radiometry::vacuum(n);
         return out;
     }
@@ -306,19 +252,18 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
         for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
             albedo[i] += share[m] * static_cast<double>(optics.reflectance[m * static_cast<std::size_t>(n) + i]);
 
-    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, air.set->tables.front(), out.grid);
-    out.atmosphere = radiometry::make_view_atmosphere(*air.set, air.conditions, out.grid, albedo, air.ground_heights_m);
-    out.air_K = air_temperature_K(*air.set, air.conditions);
-    for (const auto& warning : radiometry::atmosphere_warnings(*air.set, air.conditions))
+    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, tables.air->tables.front(), out.grid);
+    out.atmosphere = radiometry::make_view_atmosphere(*tables.air, conditions, out.grid, albedo, tables.ground_heights_m);
+    out.air_K = air_temperature_K(*tables.air, conditions);
+    for (const auto& warning : radiometry::atmosphere_warnings(*tables.air, conditions))
         report.warn("atmosphere: " + warning);
     return out;
 }
 
-radiometry::SpectralGrid transport_grid(const Scenario& scenario, const inputs::SceneInputs& in,
+radiometry::SpectralGrid transport_grid(const Scenario& scenario, const inputs::SceneInputs& in, const OpticalTables& tables,
                                         const std::vector<Spectrum>& responses, double sensor_agl_m,
                                         const radiometry::SunPosition& sun) {
-    return make_grid(responses, flame_tables(scenario).get(), flame_gas(scenario, in),
-                     scene_air(scenario, in, sensor_agl_m, sun));
+    return make_grid(responses, tables, flame_gas(scenario, in), conditions_of(scenario, tables, sensor_agl_m, sun));
 }
 
 }  // namespace pyroscene::pipeline

@@ -6,6 +6,7 @@
 #include "base/report.h"
 #include "fire/flame_field.h"
 #include "inputs/scene_inputs.h"
+#include "pipeline/optical_tables.h"
 #include "radiometry/spectral_grid.h"
 #include "radiometry/sun.h"
 #include "radiometry/view_atmosphere.h"
@@ -54,12 +55,12 @@ struct SpectralScene {
 };
 /// \param sensor_agl_m sensor height above the mean terrain  \param sun position at the scene centre
 SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
-                                  const FireScene& fire, const std::vector<Spectrum>& responses, double sensor_agl_m,
-                                  const radiometry::SunPosition& sun, RunReport& report);
+                                  const OpticalTables& tables, const FireScene& fire, const std::vector<Spectrum>& responses,
+                                  double sensor_agl_m, const radiometry::SunPosition& sun, RunReport& report);
 
 /// The transport wavelengths alone, as make_spectral_scene() picks them.
 radiometry::SpectralGrid transport_grid(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
-                                        const std::vector<Spectrum>& responses, double sensor_agl_m,
-                                        const radiometry::SunPosition& sun);
+                                        const OpticalTables& tables, const std::vector<Spectrum>& responses,
+                                        double sensor_agl_m, const radiometry::SunPosition& sun);
 
 }  // namespace pyroscene::pipeline

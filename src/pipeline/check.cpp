@@ -1,5 +1,6 @@
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -72,8 +73,8 @@ double bytes_per_pixel(const Scenario& s, double bands) {
     return 4.0 * bands + 8.0 * kGeolocation + (s.products.truth ? 4.0 * (kTruth + bands * (terms + 2.0)) : 0.0);
 }
 
-std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in, const scenario::Acquisition& a,
-                                double& seconds) {
+std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in, const std::optional<OpticalTables>& tables,
+                                const scenario::Acquisition& a, double& seconds) {
     const auto sensor = sensors::load_sensor(a.sensor);
     std::string out;
     const std::size_t frame = inputs::frame_at(in.frames, a.time_s, a.id);
@@ -83,9 +84,10 @@ std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in
         for (const int b : wanted_bands(a, sensor, id))
             responses.push_back(sensor.bands[static_cast<std::size_t>(b)].response);
         const auto geometry = resolve_geometry(a, in, nullptr, sensor, group);
+        if (!tables) continue;  // what is wrong with them has been said
         const double agl_m = std::max(1.0, geometry.path.at(0.0).position.h_m - in.mean_height_m);
         const auto sun = radiometry::sun_position(s.start.unix_s + a.time_s, in.centre.lat_deg, in.centre.lon_deg);
-        const auto grid = transport_grid(s, in, responses, agl_m, sun);
+        const auto grid = transport_grid(s, in, *tables, responses, agl_m, sun);
         (void)ground_reflectance(s, in.cover_names, grid);  // for what is wrong with the user's spectra
         const bool point =
             sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;
@@ -117,10 +119,12 @@ CheckResult check(const Scenario& scenario) {
         return result;
     }
     check_rasters(scenario, in, result);
+    std::optional<OpticalTables> tables;
+    if (!scenario.acquisitions.empty()) passes(result, [&] { tables = load_optical_tables(scenario, in); });
     double seconds = 0.0;
     std::string acquisitions;
     for (const auto& a : scenario.acquisitions)
-        passes(result, [&] { acquisitions += acquisition_summary(scenario, in, a, seconds); });
+        passes(result, [&] { acquisitions += acquisition_summary(scenario, in, tables, a, seconds); });
     if (!result.problems.empty()) return result;
     result.warnings = scenario_warnings(scenario, in);
     const unsigned cores = std::max(1U, std::thread::hardware_concurrency());

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "base/constants.h"
-#include "base/files.h"
 #include "fire/flame_bodies.h"
+#include "pipeline/optical_tables.h"
 #include "pipeline/plume_scene.h"
 #include "radiometry/flame_optics.h"
 #include "radiometry/planck.h"
@@ -67,9 +67,8 @@ private:
 
 double gas_power_W(const scenario::FlameSettings& settings, const FireScene& scene) {
     if (!settings.hot_gas || settings.grey_absorption_per_m || scene.flame.empty()) return 0.0;
-    static const auto optics = radiometry::load_flame_optics(data_folder() / "optical");
     const auto [low_K, high_K] = scene.flame.temperature_range_K();
-    const GasEmissivity gas(optics, scene.gas, low_K, high_K);
+    const GasEmissivity gas(*shipped_flame_optics(), scene.gas, low_K, high_K);
     double sum = 0.0;
     for (const auto& body : fire::flame_bodies(scene.flame))
         sum += body.area_m2 * fourth_power(body.T_K) * gas.at(body.chord_m(), body.T_K);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include "base/constants.h"
 #include "pipeline/sensor_json.h"
@@ -178,9 +179,14 @@ void ImageFiles::finish(const Geolocation& geolocation, RunReport& report) {
     auto out = sensor_raster(*job_);
     out.geolocation.reset();
     out.compression = gis::Compression::Zstd;
+    out.tile_rows = 128;  // a part of it is read without the rest
     for (const auto& [name, unit] : kGeolocationBands) out.bands.push_back({name, unit, {}, {}, {}});
-    gis::write_geotiff(job_->files.geolocation(), out, std::span<const double>(geolocation.planes()));
-    if (truth_) truth_->finish();
+    const auto write_geolocation = [&] {
+        gis::write_geotiff(job_->files.geolocation(), out, std::span<const double>(geolocation.planes()));
+    };
+    tbb::parallel_invoke(write_geolocation, [&] {
+        if (truth_) truth_->finish();
+    });
     radiance_->set_control_points(geolocation.control_points());
     radiance_->finish();
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -184,7 +185,8 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
                                       std::max(in.highest_m, flame_top_m) + 10.0, 2.0 * farthest_corner_m(in, sensor_m));
     const double sensor_agl_m = chords.open() ? height_of_slant_path_m(distance_to_flame_m(job.fire.flame, sensor_m))
                                               : std::max(1.0, sensor.h_m - in.mean_height_m);
-    const auto spectral = make_spectral_scene(scenario, in, job.fire, responses, sensor_agl_m, sun.centre(), report);
+    const auto spectral =
+        make_spectral_scene(scenario, in, job.tables, job.fire, responses, sensor_agl_m, sun.centre(), report);
 
     render::RenderScene scene;
     scene.terrain = &job.terrain;
@@ -229,10 +231,9 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
         {
             const PhaseTimer timer(report, "render/image");
             renderer.render(first, std::min(files.lines_at_once(), request.lines - first), lines);
-            geolocation.add(lines);
         }
         missed += std::count_if(lines.coverage.begin(), lines.coverage.end(), [](float c) { return !(c > 0.0F); });
-        files.add(lines, report);
+        tbb::parallel_invoke([&] { geolocation.add(lines); }, [&] { files.add(lines, report); });
         if (monitor.is_cancelled()) throw Cancelled();
     }
     report_coverage(job, missed, scene.surroundings.has_value(), chords.open(), report);

@@ -13,6 +13,7 @@ struct GroupJob {
     const scenario::Scenario& scenario;
     const scenario::Acquisition& acquisition;
     const inputs::SceneInputs& inputs;
+    const OpticalTables& tables;
     const FireScene& fire;
     const render::TerrainMesh& terrain;
     const sensors::Sensor& sensor;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_pipeline.h>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -37,6 +40,7 @@ struct Session {
     RunReport& report;
     Fingerprints fingerprints;
     inputs::SceneInputs inputs;
+    std::optional<OpticalTables> tables;
 
     Session(const Scenario& s, const RunOptions& o, RunReport& r)
         : scenario(s), options(o), report(r), fingerprints(s), inputs(inputs::load_scene_inputs(s, [this](double fraction) {
@@ -44,6 +48,11 @@ struct Session {
               progress("spread", fraction);
           })) {}
 
+    /// Read when they are first asked for.
+    const OpticalTables& optical_tables() {
+        if (!tables) tables = load_optical_tables(scenario, inputs);
+        return *tables;
+    }
     void stop_if_cancelled() const {
         if (options.cancelled != nullptr && options.cancelled->load()) throw Cancelled();
     }
@@ -108,6 +117,44 @@ void write_fronts(Session& s, std::size_t i, const fire::FireState& state, const
     if (frames.size() <= kShortSeries || seen) record_fronts(s.report, fronts, path.stem().string());
 }
 
+/// The states from frame `first` on, in order: while one is written, the rasters of the next are read.
+/// \param previous  state before `first`; null before the first frame
+void make_states(Session& s, std::size_t first, std::shared_ptr<const fire::FireState> previous) {
+    struct Frame {
+        std::size_t index;
+        fire::FrameInputs inputs;
+        std::shared_ptr<const fire::FireState> state;
+    };
+    using OnItsWay = std::shared_ptr<Frame>;
+    constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
+    constexpr std::size_t kAtOnce = 2;
+    const std::size_t count = s.inputs.frames.size();
+    std::size_t next = first;
+    const auto read = tbb::make_filter<void, OnItsWay>(kInOrder, [&](tbb::flow_control& flow) -> OnItsWay {
+        if (next == count) {
+            flow.stop();
+            return nullptr;
+        }
+        s.stop_if_cancelled();
+        s.progress("prepare", static_cast<double>(next) / static_cast<double>(count));
+        const std::size_t i = next++;
+        return std::make_shared<Frame>(Frame{i, inputs::load_frame(s.scenario, s.inputs, i), nullptr});
+    });
+    const auto advance = tbb::make_filter<OnItsWay, OnItsWay>(kInOrder, [&](OnItsWay frame) {
+        previous = std::make_shared<const fire::FireState>(fire::advance(previous.get(), frame->inputs, s.scenario.fire));
+        frame->state = previous;
+        count_flames(s.report, previous->flame_counts);
+        return frame;
+    });
+    const auto write = tbb::make_filter<OnItsWay, void>(kInOrder, [&](const OnItsWay& frame) {
+        const double time_s = frame->inputs.time_s;
+        write_fronts(s, frame->index, *frame->state, frame->inputs.heat_flux_W_m2);
+        write_state(state_path(s.options.output, time_s), *frame->state, s.fingerprints.state(time_s), s.utc(time_s));
+        s.report.count("states_made", 1);
+    });
+    tbb::parallel_pipeline(kAtOnce, read & advance & write);
+}
+
 void prepare_phase(Session& s) {
     const PhaseTimer timer(s.report, "prepare");
     for (const auto& warning : scenario_warnings(s.scenario, s.inputs)) s.report.warn(warning);
@@ -117,7 +164,6 @@ void prepare_phase(Session& s) {
         if (!is_current(s.options.output / "spread" / "arrival.tif", print, s.options))
             write_front_rasters(*s.inputs.modelled, s.options.output / "spread", print);
     }
-    std::optional<fire::FireState> previous;
     const std::size_t count = s.inputs.frames.size();
     // The states that are still current need not be made again; work starts from the last one before the first gap.
     std::size_t first = 0;
@@ -129,18 +175,11 @@ void prepare_phase(Session& s) {
         record_inputs_energy(s.report, s.scenario, s.inputs, s.options.output);
         return;
     }
-    if (first > 0) previous = read_state(path_of(first - 1), s.inputs.grid, s.inputs.arrival_time_s);
-    for (std::size_t i = first; i < count; ++i) {
-        s.stop_if_cancelled();
-        s.progress("prepare", static_cast<double>(i) / static_cast<double>(count));
-        const auto frame = inputs::load_frame(s.scenario, s.inputs, i);
-        auto state = fire::advance(previous ? &*previous : nullptr, frame, s.scenario.fire);
-        count_flames(s.report, state.flame_counts);
-        write_fronts(s, i, state, frame.heat_flux_W_m2);
-        write_state(path_of(i), state, print_of(i), s.utc(frame.time_s));
-        previous = std::move(state);
-        s.report.count("states_made", 1);
-    }
+    std::shared_ptr<const fire::FireState> previous;
+    if (first > 0)
+        previous =
+            std::make_shared<const fire::FireState>(read_state(path_of(first - 1), s.inputs.grid, s.inputs.arrival_time_s));
+    make_states(s, first, std::move(previous));
     record_inputs_energy(s.report, s.scenario, s.inputs, s.options.output);
     s.progress("prepare", 1.0);
 }
@@ -179,11 +218,12 @@ void render_acquisition(Session& s, const Acquisition& acquisition, std::optiona
             state = state_for(s, acquisition);
             scene = make_fire_scene(s.scenario, s.inputs, *state, acquisition.time_s);
             meet_radiant_fraction(s.report, s.scenario, *state, *scene, acquisition.id);
-            record_energy(s.report, s.scenario, s.inputs, *state, *scene, acquisition.id);
+            record_energy(s.report, s.scenario, *state, *scene, acquisition.id);
         }
         const GroupJob job{s.scenario,
                            acquisition,
                            s.inputs,
+                           s.optical_tables(),
                            *scene,
                            *terrain,
                            sensor,
@@ -194,6 +234,16 @@ void render_acquisition(Session& s, const Acquisition& acquisition, std::optiona
                            fingerprint};
         render_group(job, s.monitor("render " + acquisition.id), s.report);
         s.report.count("images_made", 1);
+    }
+}
+
+/// Reads the optical tables if an image will want them. What is wrong with them is said where they are used.
+void read_tables_ahead(Session& s, const std::vector<const Acquisition*>& chosen) {
+    const auto is_new = [&](const Acquisition* a) { return !std::filesystem::exists(s.options.output / a->id); };
+    if (!s.options.force && std::none_of(chosen.begin(), chosen.end(), is_new)) return;
+    try {
+        (void)s.optical_tables();
+    } catch (const Error&) {
     }
 }
 
@@ -334,7 +384,8 @@ void products(const Scenario& scenario, const RunOptions& options, RunReport& re
 }
 void run(const Scenario& scenario, const RunOptions& options, RunReport& report) {
     in_session(scenario, options, report, [](Session& s) {
-        prepare_phase(s);
+        const auto chosen = chosen_acquisitions(s.scenario, s.options);
+        tbb::parallel_invoke([&] { prepare_phase(s); }, [&] { read_tables_ahead(s, chosen); });
         render_phase(s);
         products_phase(s);
     });
