@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,76 +10,99 @@
 
 #include "base/error.h"
 #include "gis/crs.h"
-#include "gis/fds_index.h"
+#include "gis/fds_lattice.h"
 #include "gis/fire_model_files.h"
 
 namespace pyroscene::gis {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr double kEven = 1e-3;  ///< of a cell: spacing may differ by so much
-
 /// The files of the first label that the run has.
-std::vector<FdsFile> files_of(const FdsIndex& index, const std::vector<std::string>& labels, const std::string& smv) {
-    std::set<std::string> found;
-    for (const auto& file : index.files) found.insert(file.label);
+std::vector<FdsFile> first_found(const FdsIndex& index, const std::vector<std::string>& labels) {
+    std::vector<FdsFile> files;
     for (const auto& label : labels) {
-        std::vector<FdsFile> files;
         std::copy_if(index.files.begin(), index.files.end(), std::back_inserter(files),
                      [&](const FdsFile& f) { return f.label == label; });
-        if (!files.empty()) return files;
+        if (!files.empty()) break;
     }
+    return files;
+}
+
+std::vector<FdsFile> files_of(const FdsIndex& index, const std::vector<std::string>& labels, const std::string& smv) {
+    auto files = first_found(index, labels);
+    if (!files.empty()) return files;
+    std::set<std::string> found;
+    for (const auto& file : index.files) found.insert(file.label);
     throw input_error(smv, fmt::format("has no output of '{}'; it has {}", fmt::join(labels, "', '"),
                                        found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", "))));
 }
 
-double spacing(const std::vector<double>& nodes, const std::string& subject) {
-    const double step = (nodes.back() - nodes.front()) / static_cast<double>(nodes.size() - 1);
-    for (std::size_t i = 1; i < nodes.size(); ++i)
-        if (!(std::abs(nodes[i] - nodes[i - 1] - step) <= kEven * std::abs(step)))
-            throw input_error(subject, fmt::format("has cells of unequal size ({:g} m beside {:g} m); expected one spacing",
-                                                   nodes[i] - nodes[i - 1], step));
-    return step;
-}
-
-/// The lattice of nodes of all meshes: one spacing, one origin.
-struct Lattice {
-    double west_m = std::numeric_limits<double>::infinity(), south_m = west_m, east_m = -west_m, north_m = -west_m;
-    double dx_m = 0.0, dy_m = 0.0;
-
-    void add(const FdsMesh& mesh, const std::string& subject) {
-        if (mesh.x_m.empty() || mesh.y_m.empty()) throw input_error(subject, "has a mesh without PDIM or TRNX, TRNY");
-        const double dx = spacing(mesh.x_m, subject), dy = spacing(mesh.y_m, subject);
-        if (dx_m > 0.0 && (std::abs(dx - dx_m) > kEven * dx_m || std::abs(dy - dy_m) > kEven * dy_m))
-            throw input_error(subject,
-                              fmt::format("has meshes with cells of {:g} m and {:g} m; expected one size", dx_m, dx));
-        dx_m = dx, dy_m = dy;
-        west_m = std::min(west_m, mesh.x_m.front()), east_m = std::max(east_m, mesh.x_m.back());
-        south_m = std::min(south_m, mesh.y_m.front()), north_m = std::max(north_m, mesh.y_m.back());
+/// A quantity on the ground, moment by moment, from the files of all meshes.
+class Ground {
+public:
+    /// \param volume  volumes, summed over their height; else surfaces
+    Ground(const FdsIndex& index, std::vector<FdsFile> files, bool volume, const std::string& smv)
+        : index_(index), files_(std::move(files)), smv_(smv), cells_(has_cells()), lattice_(index.meshes, cells_, smv) {
+        for (const auto& file : files_) readers_.emplace_back(file, index_.meshes[file.mesh], volume);
+        if (std::none_of(readers_.begin(), readers_.end(), [](const FdsReader& r) { return r.on_ground(); }))
+            throw input_error(
+                smv, fmt::format("'{}' has {}", files_.front().label,
+                                 volume ? "no slice that is a volume" : "no horizontal slice and no surface that faces up"));
     }
-    [[nodiscard]] int cols() const { return static_cast<int>(std::lround((east_m - west_m) / dx_m)) + 1; }
-    [[nodiscard]] int rows() const { return static_cast<int>(std::lround((north_m - south_m) / dy_m)) + 1; }
+    [[nodiscard]] const FdsLattice& lattice() const noexcept { return lattice_; }
+
+    /// The next moment; nothing when a file ends. Files of all meshes must be of one time.
+    std::optional<std::vector<float>> next(FdsLattice::Rule rule, float most, double& time_s) {
+        auto moment = lattice_.moment();
+        for (std::size_t i = 0; i < readers_.size(); ++i) {
+            auto& reader = readers_[i];
+            if (!reader.next()) return std::nullopt;
+            if (i == 0) time_s = reader.time_s();
+            if (std::abs(reader.time_s() - time_s) > 1e-3 * std::max(1.0, std::abs(time_s)))
+                throw input_error(smv_, fmt::format("'{}' is given at {:g} s in one mesh and at {:g} s in another",
+                                                    files_[i].label, time_s, reader.time_s()));
+            lattice_.lay(reader, files_[i], index_.meshes[files_[i].mesh], rule, most, moment);
+        }
+        return std::move(moment.values);
+    }
+
+    [[nodiscard]] MemoryRaster raster(const std::string& unit, const LocalPlacement& place) const {
+        return {
+            lattice_.cols(),
+            lattice_.rows(),
+            north_up(place.west_m + lattice_.west_m(), place.south_m + lattice_.north_m(), lattice_.dx_m(), lattice_.dy_m()),
+            parse_map_crs(place.crs, "crs of the FDS run").wkt,
+            unit,
+            {}};
+    }
+
+private:
+    [[nodiscard]] bool has_cells() const {
+        std::set<bool> kinds;
+        for (const auto& file : files_)
+            if (file.kind != FdsFile::Kind::Geometry) kinds.insert(file.cell_centred);
+        if (kinds.size() > 1)
+            throw input_error(
+                smv_, fmt::format("'{}' is given at nodes and at cells; expected one of the two", files_.front().label));
+        return kinds.empty() || *kinds.begin();
+    }
+
+    const FdsIndex& index_;
+    std::vector<FdsFile> files_;
+    std::string smv_;
+    bool cells_;
+    FdsLattice lattice_;
+    std::deque<FdsReader> readers_;
 };
 
-/// Puts a patch where it belongs. Values of cells are stored with the node to their east and north; the first is of none.
-void lay(const FdsPatch& patch, const FdsFile& file, const FdsMesh& mesh, const Lattice& lattice, MemoryRaster& out) {
-    const int first = file.cell_centred ? 1 : 0;
-    for (int j = patch.j_first + first; j <= patch.j_last; ++j)
-        for (int i = patch.i_first + first; i <= patch.i_last; ++i) {
-            if (i < 0 || j < 0 || i >= static_cast<int>(mesh.x_m.size()) || j >= static_cast<int>(mesh.y_m.size()))
-                throw input_error(file.file.string(), fmt::format("has a node {}, {} beyond its mesh", i, j));
-            const int col =
-                static_cast<int>(std::lround((mesh.x_m[static_cast<std::size_t>(i)] - lattice.west_m) / lattice.dx_m));
-            const int row =
-                out.rows - 1 -
-                static_cast<int>(std::lround((mesh.y_m[static_cast<std::size_t>(j)] - lattice.south_m) / lattice.dy_m));
-            const auto from =
-                static_cast<std::size_t>(j - patch.j_first) * static_cast<std::size_t>(patch.i_last - patch.i_first + 1) +
-                static_cast<std::size_t>(i - patch.i_first);
-            float& value = out.bands[0][static_cast<std::size_t>(row) * static_cast<std::size_t>(out.cols) +
-                                        static_cast<std::size_t>(col)];
-            value = std::fmin(value, patch.values[from]);
-        }
+void require_unit(const std::vector<FdsFile>& files, const std::vector<std::string>& units, const std::string& smv) {
+    for (const auto& file : files)
+        if (file.unit != files.front().unit || std::find(units.begin(), units.end(), file.unit) == units.end())
+            throw input_error(
+                smv, fmt::format("'{}' is in '{}', expected '{}'", file.label, file.unit, fmt::join(units, "' or '")));
+}
+
+std::string key_of(const std::string& smv, const std::string& label, const LocalPlacement& place) {
+    return fmt::format("{}|{}|{}|{}|{}", smv, label, place.crs, place.west_m, place.south_m);
 }
 
 }  // namespace
@@ -88,38 +113,52 @@ std::filesystem::path fds_ground_quantity(const std::filesystem::path& smv, cons
     const auto subject = smv.string();
     const FdsIndex index = read_fds_index(smv);
     const auto files = files_of(index, labels, subject);
-    Lattice lattice;
-    for (const auto& mesh : index.meshes) lattice.add(mesh, subject);
-    const bool cells = files.front().cell_centred;
-    const double shift = cells ? 1.0 : 0.5;  // from the node that a value is stored with to the corner of its pixel
-    MemoryRaster out{lattice.cols(),
-                     lattice.rows(),
-                     north_up(place.west_m + lattice.west_m - shift * lattice.dx_m,
-                              place.south_m + lattice.north_m + (1.0 - shift) * lattice.dy_m, lattice.dx_m, lattice.dy_m),
-                     parse_map_crs(place.crs, "crs of the FDS run").wkt,
-                     unit,
-                     {}};
-    out.bands.emplace_back(static_cast<std::size_t>(out.cols) * static_cast<std::size_t>(out.rows), kNaN);
-    bool any = false;
-    for (const auto& file : files) {
-        if (file.unit != unit)
-            throw input_error(subject, fmt::format("'{}' is in '{}', expected '{}'", file.label, file.unit, unit));
-        if (file.cell_centred != cells)
-            throw input_error(subject,
-                              fmt::format("'{}' is given at nodes and at cells; expected one of the two", file.label));
-        for (const auto& patch : read_fds_patches(file)) {
-            any = true;
-            lay(patch, file, index.meshes[file.mesh], lattice, out);
-        }
+    require_unit(files, {unit}, subject);
+    Ground ground(index, files, false, subject);
+    auto out = ground.raster(unit, place);
+    out.bands.emplace_back(ground.lattice().size(), std::numeric_limits<float>::quiet_NaN());
+    double time_s = 0.0;
+    while (auto moment = ground.next(FdsLattice::Rule::Smallest, kNotReached, time_s)) out.bands[0] = std::move(*moment);
+    return keep_in_memory("fds", key_of(subject, files.front().label, place), "ground", out);
+}
+
+std::vector<std::string> fds_flux_labels(const std::string& quantity) {
+    if (!quantity.empty()) return {quantity};
+    return {"HRRPUA", "HRRPUV"};
+}
+
+std::vector<std::filesystem::path> fds_files(const std::filesystem::path& smv, const std::vector<std::string>& labels) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& file : first_found(read_fds_index(smv), labels)) {
+        files.push_back(file.file);
+        if (!file.geometry.empty()) files.push_back(file.geometry);
     }
-    if (!any)
-        throw input_error(subject,
-                          fmt::format("'{}' has no horizontal slice and no surface that faces up", files.front().label));
-    for (float& value : out.bands[0])
-        if (value > kNotReached) value = kNaN;
-    return keep_in_memory(
-        "fds", fmt::format("{}|{}|{}|{}|{}", subject, files.front().label, place.crs, place.west_m, place.south_m), "ground",
-        out);
+    return files;
+}
+
+FluxSeries fds_heat_flux(const std::filesystem::path& smv, const std::string& quantity, const LocalPlacement& place) {
+    constexpr float kMost_W_m2 = 1e8F, kAny = std::numeric_limits<float>::infinity();
+    const auto subject = smv.string();
+    const FdsIndex index = read_fds_index(smv);
+    const auto files = files_of(index, fds_flux_labels(quantity), subject);
+    require_unit(files, {"kW/m2", "kW/m3"}, subject);
+    Ground ground(index, files, files.front().unit == "kW/m3", subject);
+    auto out = ground.raster("W m-2", place);
+    FluxSeries series;
+    double time_s = 0.0;
+    while (auto moment = ground.next(FdsLattice::Rule::Largest, kAny, time_s)) {
+        for (float& v : *moment) {
+            v = v < 0.0F ? 0.0F : 1000.0F * v;  // NaN stays
+            if (v > kMost_W_m2)
+                throw input_error(subject, fmt::format("'{}' has a flux of {:.4g} kW m-2 at {:g} s, expected 0 to {:g}",
+                                                       files.front().label, v / 1000.0F, time_s, kMost_W_m2 / 1000.0F));
+        }
+        out.bands.push_back(std::move(*moment));
+        series.times_s.push_back(time_s);
+    }
+    if (series.times_s.empty()) throw input_error(subject, fmt::format("'{}' has no moment", files.front().label));
+    series.raster = keep_in_memory("fds", key_of(subject, files.front().label, place), "heat_flux", out);
+    return series;
 }
 
 }  // namespace pyroscene::gis

@@ -27,7 +27,7 @@ FortranRecords::FortranRecords(const std::filesystem::path& path) : path_(path.s
 
 bool FortranRecords::at_end() { return in_.peek() == std::ifstream::traits_type::eof(); }
 
-std::vector<char> FortranRecords::record(std::size_t expected_bytes) {
+std::vector<char> FortranRecords::record(std::size_t expected_bytes, bool several) {
     ++number_;
     const auto mark = [&] {
         std::uint32_t length = 0;
@@ -36,12 +36,13 @@ std::vector<char> FortranRecords::record(std::size_t expected_bytes) {
         return length;
     };
     const std::uint32_t before = mark();
-    if (before != expected_bytes)
+    const bool fits = several ? before > 0 && before % expected_bytes == 0 : before == expected_bytes;
+    if (!fits)
         throw input_error(path_,
-                          fmt::format("record {} has {} bytes, expected {}; is it a little-endian Fortran file of this "
+                          fmt::format("record {} has {} bytes, expected {}{}; is it a little-endian Fortran file of this "
                                       "grid?",
-                                      number_, before, expected_bytes));
-    std::vector<char> bytes(expected_bytes);
+                                      number_, before, several ? "a multiple of " : "", expected_bytes));
+    std::vector<char> bytes(before);
     in_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (!in_) throw input_error(path_, fmt::format("ends inside record {}", number_));
     if (const std::uint32_t after = mark(); after != before)
@@ -61,5 +62,9 @@ std::vector<std::int32_t> FortranRecords::integers(std::size_t count) {
 }
 
 std::vector<float> FortranRecords::floats(std::size_t count) { return as<float>(record(count * sizeof(float))); }
+
+std::vector<float> FortranRecords::layers_of_floats(std::size_t count) {
+    return as<float>(record(count * sizeof(float), true));
+}
 
 }  // namespace pyroscene::gis

@@ -110,6 +110,37 @@ body = b"".join(record(text.ljust(30).encode()) for text in ("FIRE ARRIVAL TIME"
 body += record(struct.pack("<6i", 0, COLS - 1, 0, ROWS - 1, 1, 1))
 body += record(struct.pack("<f", 2400.0)) + record(np.where(burnt, arrival, 1e6)[::-1].astype("<f4").tobytes())
 (here / "hill_1_1.sf").write_bytes(body)
+# Heat flux of a burn-out that the tests know: 400 kW/m2 at arrival, e-folding time 60 s.
+def flux(time):
+    return np.where(burnt & (arrival <= time), 400.0 * np.exp(-(time - arrival) / 60.0), 0.0)
+
+
+def halved(values):
+    return values.reshape(values.shape[0] // 2, 2, values.shape[1] // 2, 2).mean(axis=(1, 3))
+
+
+# QUIC-Fire: kW/m2 on cells of 40 m; kW in the cells of three layers, which hold a half, a third and a sixth of it.
+for time in (600, 900, 1200):
+    south_first = halved(flux(time))[::-1].astype("<f4")
+    (here / ("surfEnergy%05d.bin" % time)).write_bytes(record(south_first.tobytes()))
+    layers = np.stack([south_first * 1600.0 * share for share in (1 / 2, 1 / 3, 1 / 6)]).astype("<f4")
+    (here / ("fire-energy_to_atmos-%05d.bin" % time)).write_bytes(record(layers.tobytes()))
+# FDS: heat release per area of the ground, by cells, in a coarse mesh in the west (40 m) and a fine one in the east (20 m).
+SPLIT = 40
+smv = "TITLE\n hill, heat release\n\nNMESHES\n 2\n"
+for mesh, (first, last, cell) in enumerate(((0, SPLIT, 2 * CELL), (SPLIT, COLS, CELL)), 1):
+    nx, ny, x0 = int((last - first) * CELL / cell), int(ROWS * CELL / cell), first * CELL
+    smv += "\nGRID   MESH_%08d\n %d %d 10 1\n\nPDIM\n %g %g 0 %g 0 100 0 0 0\n" % (mesh, nx, ny, x0, last * CELL, ROWS * CELL)
+    smv += "\nBNDC  %d 1\n hill_hrr_%d_1.bf\n HRRPUA\n hrrpua\n kW/m2\n" % (mesh, mesh)
+    body = b"".join(record(text.ljust(30).encode()) for text in ("HRRPUA", "hrrpua", "kW/m2"))
+    body += record(struct.pack("<i", 1)) + record(struct.pack("<9i", 0, nx, 0, ny, 0, 0, 3, 0, mesh))
+    for time in (600, 900, 1200):
+        cells = flux(time)[:, first:last]
+        cells = (halved(cells) if cell > CELL else cells)[::-1].astype("<f4")
+        # A cell stands with the node to its west and south; what lies beyond the last means nothing.
+        body += record(struct.pack("<f", time)) + record(np.pad(cells, ((0, 1), (0, 1)), constant_values=-1.0).astype("<f4").tobytes())
+    (here / ("hill_hrr_%d_1.bf" % mesh)).write_bytes(body)
+(here / "hill_hrr.smv").write_text(smv)
 # WindNinja: a wind from 255 degrees, 9 mph, faster over the hill, on cells of 100 m.
 height = dem.reshape(20, 5, 18, 5).mean(axis=(1, 3))
 asc("hill_255_9_100m_vel.asc", 9.0 * (0.9 + 0.3 * height / height.max()), 100.0, "%.2f")

@@ -16,6 +16,7 @@
 namespace pyroscene::inputs {
 namespace {
 
+const std::vector<std::string> kFdsArrival{"FIRE ARRIVAL TIME", "TIME OF ARRIVAL"};
 constexpr double kAboveZero = std::numeric_limits<float>::min();
 
 /// Reads a raster in the unit that the scenario says; a tag of the file must say the same. Values below `least` are no data, so that
@@ -56,8 +57,7 @@ scenario::ArrivalModelSource with_rasters(scenario::ArrivalModelSource source) {
     } else if (source.model == "quic-fire") {
         arrival.raster.files = {gis::quic_fire_arrival(files, {source.cols, source.rows, source.cell_m, place_of(source)})};
     } else if (source.model == "fds") {
-        arrival.raster.files = {
-            gis::fds_ground_quantity(files.front(), {"FIRE ARRIVAL TIME", "TIME OF ARRIVAL"}, "s", place_of(source))};
+        arrival.raster.files = {gis::fds_ground_quantity(files.front(), kFdsArrival, "s", place_of(source))};
         if (source.spread_rate)
             source.spread_rate->raster.files = {gis::fds_ground_quantity(source.spread_rate->raster.files.front(),
                                                                          {"LS SPREAD RATE"}, "m/s", place_of(source))};
@@ -141,6 +141,8 @@ std::vector<std::filesystem::path> arrival_model_files(const scenario::ArrivalMo
     auto files = files_of(source.fuel);
     files.insert(files.end(), source.arrival.raster.files.begin(), source.arrival.raster.files.end());
     if (source.like) files.push_back(*source.like);
+    if (source.model == "fds")
+        for (auto& file : gis::fds_files(source.arrival.raster.files.front(), kFdsArrival)) files.push_back(std::move(file));
     for (const auto* raster : {&source.fireline_intensity, &source.flame_length, &source.spread_rate})
         if (*raster) files.push_back((*raster)->raster.files.front());
     return files;

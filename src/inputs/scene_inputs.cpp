@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "inputs/arrival_model.h"
+#include "inputs/flux_model.h"
 #include "inputs/front_inputs.h"
 #include "inputs/fuel_cells.h"
 #include "inputs/spread_model.h"
@@ -183,6 +184,8 @@ std::vector<std::filesystem::path> input_files(const Scenario& scenario) {
         for (const auto& file : spread_files(*in.spread)) unique.insert(file);
     if (in.arrival_model)
         for (const auto& file : arrival_model_files(*in.arrival_model)) unique.insert(file);
+    if (in.flux_model)
+        for (const auto& file : flux_model_files(*in.flux_model)) unique.insert(file);
     if (in.plume) unique.insert(in.plume->files.begin(), in.plume->files.end());
     for (const auto* source : sources) unique.insert(source->files.begin(), source->files.end());
     std::erase_if(unique, gis::is_in_memory);  // what WRF files are read through; they themselves are in the list

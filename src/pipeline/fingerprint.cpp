@@ -67,6 +67,11 @@ std::string text(const scenario::WindSource& w) {
     return out + fmt::format("{};", w.fuel_depth_m.value_or(0.0));
 }
 
+std::string text(const scenario::FluxModelSource& s) {
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{};", s.model, s.crs, s.west_m, s.south_m, s.cols, s.rows, s.cell_m,
+                       s.quantity);
+}
+
 std::string text(const scenario::FuelSource& s) {
     return text(s.raster) + fmt::format("{}|{};", s.table, fmt::join(s.nonburnable, ","));
 }
@@ -105,6 +110,7 @@ std::string fire_text(const Scenario& s) {
                            c.time_constant2_s, c.floor_K);
     if (!f.scar_of_cover.empty() && s.inputs.cover) out += text(s.inputs.cover->raster);
     out += flames_text(s) + text(s.inputs.terrain) + text(s.inputs.heat_flux);
+    if (s.inputs.flux_model) out += text(*s.inputs.flux_model);
     if (s.inputs.arrival) out += text(*s.inputs.arrival);
     if (s.inputs.landscape) out += text(s.inputs.landscape->fuel) + s.inputs.landscape->crs;
     if (s.inputs.spread) out += spread_text(*s.inputs.spread);

@@ -181,10 +181,8 @@ Inputs read_inputs(const config::Node& node, const fs::path& folder) {
         inputs.spread = read_spread(spread, folder, landscape.present());
         comes_from("spread");
     } else {
-        if (const auto heat_flux = given("heat_flux"); heat_flux.present() || !wrf.present()) {
-            inputs.heat_flux = read_source(heat_flux, folder, kScalarSeries);
-            heat_flux.finish();
-        }
+        const auto heat_flux = given("heat_flux");
+        if (heat_flux.present() || !wrf.present()) read_heat_flux(heat_flux, folder, inputs);
     }
     inputs.fuel_load = read_optional(node.child("fuel_load"), folder, kScalarSeries);
     inputs.arrival = read_optional(node.child("arrival"), folder, kStatic);

@@ -31,15 +31,17 @@ ArrivalModelSource read_arrival_model(const config::Node& node, const std::files
 FuelSource read_fuel(const config::Node& node, const std::filesystem::path& folder);
 /// The frames of such a fire: frames_s, or duration_s and frame_step_s; mean_over_s; coarse_burn_time_s.
 FireFrames read_fire_frames(const config::Node& node);
+/// Heat flux as rasters or, with a key `model`, in a program's own files.
+void read_heat_flux(const config::Node& node, const std::filesystem::path& folder, Inputs& inputs);
 WrfSource read_wrf(const config::Node& node, const std::filesystem::path& folder);
 /// The code scheme of fuel classes: fbfm13, fbfm40 or a CSV file. Reports anything else.
 std::string read_fuel_table(const config::Node& node, const std::filesystem::path& folder);
 /// \param has_landscape  which gives fuel (and canopy) where the node does not
 SpreadSource read_spread(const config::Node& node, const std::filesystem::path& folder, bool has_landscape);
-/// Trees: cover, height_m, crown_ratio.
 /// What heights of the wind are called, and which one a name is.
 inline const std::vector<std::string> kWindHeights{"midflame", "20ft", "10m"};
 spread::WindLevel::Kind wind_level_kind(const std::string& height);
+/// Trees: cover, height_m, crown_ratio.
 CanopySource read_canopy(const config::Node& node, const std::filesystem::path& folder);
 /// \param beside_model  a coupled model brings a wind of its own
 WindSource read_wind(const config::Node& node, const std::filesystem::path& folder, bool beside_model);

@@ -14,6 +14,7 @@
 #include "fire/plume.h"
 #include "fire/state.h"
 #include "scenario/arrival_model_source.h"
+#include "scenario/flux_model_source.h"
 #include "scenario/landscape_source.h"
 #include "scenario/raster_source.h"
 #include "scenario/spread_source.h"
@@ -63,8 +64,10 @@ struct PlumeSource {
 };
 
 struct Inputs {
-    RasterSource terrain, heat_flux;  ///< no heat flux with `spread` or `arrival_model`; neither need be with `wrf_sfire`
+    RasterSource terrain,
+        heat_flux;  ///< no heat flux with `spread`, `arrival_model` or, at first, `flux_model`; neither need be with `wrf_sfire`
     std::optional<WrfSource> wrf_sfire;
+    std::optional<FluxModelSource> flux_model;  ///< whence heat_flux comes
     std::optional<LandscapeSource> landscape;
     std::optional<SpreadSource> spread;
     std::optional<ArrivalModelSource> arrival_model;

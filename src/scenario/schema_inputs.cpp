@@ -44,7 +44,7 @@ std::string main_keys() {
       "properties": {
         "terrain": {"$ref": "#/$defs/static", "description": "elevation, m"},
         "landscape": {"$ref": "#/$defs/landscape"},
-        "heat_flux": {"$ref": "#/$defs/series", "description": "sensible heat flux of the surface fire, W m-2"},
+        "heat_flux": {"$ref": "#/$defs/heat_flux"},
         "fuel_load": {"$ref": "#/$defs/series", "description": "fuel load, kg m-2"},
         "wind": {"$ref": "#/$defs/wind"},
         "arrival": {"$ref": "#/$defs/static", "description": "time of arrival of the fire, s since start"},
@@ -56,6 +56,27 @@ std::string main_keys() {
         "spread": {"$ref": "#/$defs/spread"},
         "plume": {"$ref": "#/$defs/input_plume"},
         "cover": {"$ref": "#/$defs/cover"}
+      }
+    },
+    "heat_flux": {
+      "description": "sensible heat flux of the surface fire, W m-2: rasters, or the files of a program that writes none",
+      "type": "object",
+      "additionalProperties": false,
+      "properties": {
+        "file": {"type": "string", "description": "raster of several frames; FDS: index of the run (.smv)"},
+        "files": {"type": "array", "minItems": 1, "items": {"type": "string"}, "description": "QUIC-Fire: one per moment"},
+        "band": {"$ref": "#/$defs/band"},
+        "bands": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/band"}},
+        "times_s": {"$ref": "#/$defs/times_s"},
+        "model": {"enum": ["quic-fire", "fds"], "description": "without it: rasters"},
+        "crs": {"type": "string", "description": "projected, metres; of the program's coordinates"},
+        "west_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "their origin"},
+        "south_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "their origin"},
+        "cols": {"type": "integer", "minimum": 1, "maximum": 100000},
+        "rows": {"type": "integer", "minimum": 1, "maximum": 100000},
+        "cell_m": {"type": "number", "minimum": 0.1, "maximum": 10000},
+        "quantity": {"type": "string", "description": "FDS; without it: HRRPUA, else HRRPUV"},
+        "offset_s": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "of the program's clock: its 0 is so long after start"}
       }
     },
     "landscape": {

@@ -7,6 +7,7 @@
 
 #include "gis/raster_input.h"
 #include "inputs/load_scenario.h"
+#include "inputs/scene_inputs.h"
 #include "pipeline/run.h"
 #include "system/support.h"
 
@@ -69,6 +70,49 @@ INSTANTIATE_TEST_SUITE_P(All, FireModelSample,
                                            Source{"windninja", 120.0, 0.20} /* a wind of its own */,
                                            Source{"station_wind", 60.0, 0.12}),
                          [](const auto& parameter) { return std::string(parameter.param.scenario); });
+
+/// A scenario whose files hold the heat flux 400 kW m-2 exp(-age / 60 s) of the reference fire at 600, 900 and 1200 s.
+class FluxSample : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(FluxSample, HasTheHeatOfTheReferenceWhereItBurns) {
+    const auto scenario = inputs::load_scenario(sample(std::string(GetParam()) + ".yaml"));
+    const auto scene = inputs::load_scene_inputs(scenario);
+    ASSERT_EQ(scene.frames.size(), 3U);
+    const auto arrival_s = reference_arrival_s();
+    for (std::size_t f = 0; f < 3; ++f) {
+        const double time_s = 600.0 + 300.0 * static_cast<double>(f);
+        EXPECT_EQ(scene.frames[f].time_s, time_s);
+        const auto flux = inputs::load_frame(scenario, scene, f).heat_flux_W_m2;
+        struct Sum {
+            double heat = 0.0, east = 0.0, south = 0.0;
+            void add(double value, double col, double row) { heat += value, east += value * col, south += value * row; }
+        } found, expected;
+        for (int row = 0; row < flux.grid.rows; ++row)
+            for (int col = 0; col < flux.grid.cols; ++col) {
+                const double age_s = time_s - arrival_s[flux.grid.index(row, col)];
+                if (age_s >= 0.0) expected.add(4e5 * std::exp(-age_s / 60.0), col, row);
+                if (const double v = flux.at(row, col); v > 0.0) found.add(v, col, row);
+            }
+        EXPECT_NEAR(found.heat / expected.heat, 1.0, 1e-4) << time_s;
+        // Cells of 40 m spread their heat over those of 20 m, which leaves its centre where it is.
+        EXPECT_NEAR(found.east / found.heat, expected.east / expected.heat, 0.3) << time_s;
+        EXPECT_NEAR(found.south / found.heat, expected.south / expected.heat, 0.3) << time_s;
+    }
+}
+
+TEST_P(FluxSample, BecomesAnImage) {
+    const ScratchFolder scratch;
+    pipeline::RunOptions options;
+    options.output = scratch / "out";
+    options.threads = 2;
+    RunReport report;
+    pipeline::run(inputs::load_scenario(sample(std::string(GetParam()) + ".yaml")), options, report);
+    const auto mwir = plane(gis::read_image(scratch / "out" / "camera" / "radiance.tif"), 1);
+    EXPECT_GT(*std::max_element(mwir.begin(), mwir.end()), 20.0 * *std::min_element(mwir.begin(), mwir.end()));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FluxSample, ::testing::Values("fds_heat_release", "quic_fire_surface", "quic_fire_energy"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
 
 }  // namespace
 }  // namespace pyroscene::test

@@ -79,6 +79,37 @@ TEST(ArrivalModel, TakesTheFilesOfProgramsThatWriteNoRasters) {
     EXPECT_EQ(folder.problems(with_model("model: fds, arrival: {file: arrival.tif}")).size(), 3U);
 }
 
+std::string with_flux(const std::string& keys) {
+    return "pyroscene: 1\ninputs:\n  terrain: {file: dem.tif}\n  heat_flux: {" + keys +
+           "}\nstart: 2017-07-15T22:00:00Z\nacquisitions:\n  - {id: a, sensor: wasp, time_s: 300, platform: {altitude_m: "
+           "3000}}\n";
+}
+
+TEST(FluxModel, TakesTheFilesOfProgramsThatWriteNoRasters) {
+    const ScenarioFolder folder;
+    const auto place = ", crs: EPSG:32616, west_m: 5, south_m: 6";
+    const auto quic = *folder
+                           .load(with_flux("model: quic-fire, files: [heat.tif, heat2.tif], cols: 7, rows: 8, cell_m: 2" +
+                                           std::string(place)))
+                           .inputs.flux_model;
+    EXPECT_EQ(quic.files, (std::vector{folder.path() / "heat.tif", folder.path() / "heat2.tif"}));
+    EXPECT_EQ(quic.cols, 7);
+    EXPECT_EQ(quic.rows, 8);
+    EXPECT_EQ(quic.south_m, 6.0);
+    const auto inputs =
+        folder.load(with_flux("model: fds, file: heat.tif, quantity: HRRPUV, offset_s: -20" + std::string(place))).inputs;
+    EXPECT_EQ(inputs.flux_model->quantity, "HRRPUV");
+    EXPECT_EQ(inputs.flux_model->offset_s, -20.0);
+    EXPECT_TRUE(inputs.heat_flux.files.empty());
+    EXPECT_EQ(folder.problems(with_flux("model: fds, file: heat.tif, cols: 7" + std::string(place))),
+              Lines{"4: inputs.heat_flux.cols: does not belong to model 'fds'"});
+    EXPECT_EQ(folder.problems(with_flux("model: quic-fire, files: [], cols: 7, rows: 8, cell_m: 2" + std::string(place))),
+              Lines{"4: inputs.heat_flux.files: expected a list of files"});
+    EXPECT_EQ(folder.problems(with_flux("model: fds, file: heat.tif")).size(), 3U);
+    EXPECT_EQ(folder.problems(with_flux("model: farsite, file: heat.tif" + std::string(place))),
+              Lines{"4: inputs.heat_flux.model: 'farsite' is none of quic-fire, fds"});
+}
+
 TEST(ArrivalModel, StandsAlone) {
     const ScenarioFolder folder;
     EXPECT_EQ(folder.problems(with_model("model: elmfire, arrival: {file: arrival.tif}", "  heat_flux: {file: heat.tif}\n")),
