@@ -69,6 +69,8 @@ RenderSettings read_render(const config::Node& node, const SurfaceSettings& surf
 std::vector<Acquisition> read_acquisitions(const config::Node& node, const std::filesystem::path& folder);
 std::vector<Mosaic> read_mosaics(const config::Node& node, const std::vector<Acquisition>& acquisitions);
 Products read_products(const config::Node& node);
+/// Keys that are there and say nothing beside the others, each with the reason: one line of text.
+std::vector<std::string> unused_keys(const config::Node& root, const Scenario& scenario);
 
 /// The file a key names, absolute; reports a file that does not exist. Empty when the key is absent.
 std::filesystem::path read_file_name(const config::Node& node, const std::filesystem::path& folder);

@@ -111,6 +111,7 @@ Scenario load(const fs::path& path) {
     s.products = read_products(root.child("products"));
     root.finish();
     document.throw_if_any();
+    s.notes = unused_keys(root, s);
     return s;
 }
 

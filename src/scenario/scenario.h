@@ -196,7 +196,7 @@ struct Scenario {
     std::vector<Mosaic> mosaics;
     Products products;
     std::uint64_t seed = 1;
-    std::vector<std::string> notes;  ///< what whoever opened the inputs found worth a warning
+    std::vector<std::string> notes;  ///< worth a warning: keys without effect, what whoever opened the inputs found
 };
 
 /// Reads and checks the file. All problems of the text are reported together in one input error (docs/scenario.md).

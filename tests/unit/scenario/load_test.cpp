@@ -156,6 +156,37 @@ TEST(Load, ProductsAreThoseNamed) {
                     "quicklook, report, native"});
 }
 
+TEST(Load, KeysWithoutEffectAreNoted) {
+    const ScenarioFolder folder;
+    EXPECT_TRUE(folder.load(shortest()).notes.empty());
+    EXPECT_EQ(folder
+                  .load(shortest(R"(fire:
+  flame_height: {method: byram, alpha: 2}
+  front_depth: {residence_time_s: 10}
+flame: {enabled: false, temperature_K: 900}
+atmosphere: {model: none, visibility_km: 5}
+surface: {emissivity: 0.9, burned: ash_gray}
+render: {flame_light: false, light_bounces: 1}
+plume: {top_m: 500, heat_of_combustion_J_kg: 1.8e7}
+)"))
+                  .notes,
+              (Lines{"scenario.yaml:9: fire.flame_height.alpha has no effect: the method is 'byram'",
+                     "scenario.yaml:10: fire.front_depth.residence_time_s has no effect: the depth follows the heat flux",
+                     "scenario.yaml:11: flame.temperature_K has no effect: there are no flames",
+                     "scenario.yaml:15: plume.top_m has no effect: there is no plume",
+                     "scenario.yaml:13: surface.burned has no effect: one emissivity stands for all ground",
+                     "scenario.yaml:12: atmosphere.visibility_km has no effect: there is no air",
+                     "scenario.yaml:14: render.light_bounces has no effect: flames throw no light on the ground"}));
+    EXPECT_TRUE(
+        folder
+            .load(shortest("fire: {flame_height: {method: butler, stand_height_m: 20}}\nplume: {model: rise, merge_m: 9}\n"
+                           "flame: {profile: linear, tip_temperature_K: 800}\n"))
+            .notes.empty());
+    EXPECT_EQ(
+        folder.load(shortest("flame: {hot_gas: false, composition: {x_H2O: 0.1, soot_volume_fraction: 1e-7}}\n")).notes,
+        Lines{"scenario.yaml:8: flame.composition.x_H2O has no effect: there is no hot gas"});
+}
+
 TEST(Load, MissingScenarioIsAnInputError) {
     try {
         (void)load("/nowhere/scenario.yaml");
