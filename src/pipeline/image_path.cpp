@@ -50,6 +50,9 @@ sensors::Trajectory pass_path(const Acquisition& a, const inputs::SceneInputs& i
                                  : fmt::format("sensor '{}' is not geostationary; platform.pass: ascending or "
                                                "descending",
                                                sensor.id));
+    if (stands && a.platform.scan_angle_deg != 0.0)
+        throw input_error(subject(a),
+                          "platform.scan_angle_deg has no place in a geostationary pass, which sees what it sees");
     if (stands) return sensors::geostationary(*sensor.orbit);
     // The place, on the ground.
     Acquisition over = a;
@@ -79,12 +82,24 @@ std::vector<gis::Geodetic> outline(const inputs::SceneInputs& in) {
     return points;
 }
 
+/// Keys of scanners beside a camera that takes its image at one moment.
+void check_frame_keys(const Acquisition& a, const sensors::Sensor& sensor) {
+    const char* key = a.lines                       ? "lines"
+                      : a.whole_lines               ? "samples"
+                      : a.platform.ground_speed_m_s ? "platform.ground_speed_m_s"
+                                                    : nullptr;
+    if (key != nullptr)
+        throw input_error(
+            subject(a), fmt::format("{} is for scanners, and sensor '{}' takes whole frames; leave it out", key, sensor.id));
+}
+
 }  // namespace
 
 sensors::ImageGeometry resolve_geometry(const Acquisition& a, const inputs::SceneInputs& in, const fire::FireState* state,
                                         const sensors::Sensor& sensor, const sensors::CameraGroup& group) {
     sensors::ImageGeometry image{.sensor = &sensor, .group = &group, .time_s = a.time_s};
     const bool frame = group.scan.kind == sensors::ScanLaw::Kind::Frame;
+    if (frame) check_frame_keys(a, sensor);
     if (a.platform.trajectory) {
         image.path = flown_path(a);
     } else if (a.platform.pass != Pass::None) {
