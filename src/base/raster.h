@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,5 +23,14 @@ struct Raster {
     [[nodiscard]] T& at(int row, int col) noexcept { return values[grid.index(row, col)]; }
     [[nodiscard]] const T& at(int row, int col) const noexcept { return values[grid.index(row, col)]; }
 };
+
+/// A raster that many hold and nobody changes; null = there is none.
+template <class T>
+using SharedRaster = std::shared_ptr<const Raster<T>>;
+
+template <class T>
+SharedRaster<T> share(Raster<T> raster) {
+    return std::make_shared<const Raster<T>>(std::move(raster));
+}
 
 }  // namespace pyroscene

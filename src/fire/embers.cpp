@@ -24,12 +24,12 @@ struct Place {
 /// A place in a cell: where the fire arrived, or will arrive, nearest to now; without arrival times anywhere.
 Place place_in_cell(const FireState& state, int row, int col, const RandomKey& key, std::uint64_t pocket) {
     const MapGrid& grid = state.cell_class.grid;
-    const bool has_arrival = !state.predicted_arrival_time_s.values.empty();
+    const bool has_arrival = state.predicted_arrival_time_s != nullptr;
     Place best{grid.x_centre_m(col), grid.y_centre_m(row)};
     double nearest_s = std::numeric_limits<double>::infinity();
     for (std::uint32_t n = 0; n < (has_arrival ? kPlaces : 1); ++n) {
         const double u = col + uniform01(key, pocket, 2 * n), v = row + uniform01(key, pocket, 2 * n + 1);
-        const double arrival_s = has_arrival ? bilinear_or_own(state.predicted_arrival_time_s, u, v) : state.time_s;
+        const double arrival_s = has_arrival ? bilinear_or_own(*state.predicted_arrival_time_s, u, v) : state.time_s;
         const double from_now_s =
             std::isnan(arrival_s) ? std::numeric_limits<double>::max() : std::abs(arrival_s - state.time_s);
         if (from_now_s >= nearest_s) continue;
@@ -43,10 +43,10 @@ Place place_in_cell(const FireState& state, int row, int col, const RandomKey& k
 void shed(FireState& state, int row, int col, const FrameInputs& frame, const FireParameters& p, const RandomKey& key) {
     const MapGrid& grid = state.cell_class.grid;
     const std::size_t cell = grid.index(row, col);
-    const double volume_m3 = static_cast<double>(state.ember_height_m.values[cell]) * grid.cell_area_m2();
-    const double tip_m = static_cast<double>(state.flame_height_m.values[cell]) / state.front_fraction.values[cell];
-    const double lean_m = tip_m * std::tan(static_cast<double>(state.flame_tilt_rad.values[cell]));
-    const double azimuth_rad = state.flame_azimuth_rad.values[cell];
+    const double volume_m3 = static_cast<double>(state.ember_height_m[cell]) * grid.cell_area_m2();
+    const double tip_m = static_cast<double>(state.flame_height_m[cell]) / state.front_fraction[cell];
+    const double lean_m = tip_m * std::tan(static_cast<double>(state.flame_tilt_rad[cell]));
+    const double azimuth_rad = state.flame_azimuth_rad[cell];
     Ember ember;
     ember.edge_m = std::cbrt(volume_m3 / static_cast<double>(kPockets));
     ember.bottom_m = tip_m;
@@ -100,7 +100,7 @@ void release_embers(FireState& state, const FireState* previous, const FrameInpu
     for (int row = 0; row < grid.rows; ++row) {
         for (int col = 0; col < grid.cols; ++col) {
             const std::size_t cell = grid.index(row, col);
-            if (state.ember_height_m.values[cell] > 0.0F && state.front_fraction.values[cell] > 0.0F)
+            if (state.ember_height_m[cell] > 0.0F && state.front_fraction[cell] > 0.0F)
                 shed(state, row, col, frame, parameters, key);
         }
     }

@@ -56,7 +56,7 @@ std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField
     std::vector<FlameColumn> columns;
     surface.for_each_own_cell([&](int row, int col, std::size_t i) {
         const std::size_t cell = state.cell_class.grid.index(row / surface.refinement, col / surface.refinement);
-        const double fraction = surface.front_fraction[i], cell_fraction = state.front_fraction.values[cell];
+        const double fraction = surface.front_fraction[i], cell_fraction = state.front_fraction[cell];
         if (!(fraction > 0.0 && cell_fraction > 0.0)) return;
 
         // The height is a mean over the cell; over the part that flames the same volume stands higher.
@@ -64,9 +64,9 @@ std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField
                            .y_m = surface.grid.y_centre_m(row),
                            .width_m = surface.grid.cell_m,
                            .area_fraction = fraction,
-                           .top_m = state.flame_height_m.values[cell] / cell_fraction,
-                           .tilt_rad = state.flame_tilt_rad.values[cell],
-                           .azimuth_rad = state.flame_azimuth_rad.values[cell],
+                           .top_m = state.flame_height_m[cell] / cell_fraction,
+                           .tilt_rad = state.flame_tilt_rad[cell],
+                           .azimuth_rad = state.flame_azimuth_rad[cell],
                            .temperature_K = flame.temperature_K};
         jitter(column, key, surface.grid.index(row, col), fire.jitter_m);
         column.z_m = bilinear_or_own(terrain_m, terrain_m.grid.col_at(column.x_m), terrain_m.grid.row_at(column.y_m));
@@ -76,7 +76,7 @@ std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField
         if (flame.profile.shape != TemperatureProfile::Shape::Constant) column.flame_m = column.top_m;
         if (column.top_m > 0.0) columns.push_back(column);
 
-        const double ember_m = state.ember_height_m.values[cell] / cell_fraction;
+        const double ember_m = state.ember_height_m[cell] / cell_fraction;
         if (!(ember_m > 0.0) || fire.embers.drift) return;
         column.flame_m = 0.0;
         column.bottom_m = column.top_m + flame.ember_gap_m;

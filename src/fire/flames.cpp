@@ -136,11 +136,10 @@ void set_tilt(FireState& state, std::size_t i, const FrameInputs& frame, const R
     in.flame_size_m = size_m;
     if (rules.parameters.flames.tilt.slope && rules.tilt.has_slope)
         in.slope_rad = slope_along_wind_rad(frame, i, east_m_s, north_m_s);
-    state.flame_tilt_rad.values[i] =
-        static_cast<float>(std::min(rules.tilt.tilt_rad(in), rules.parameters.maximum_tilt_rad));
+    state.flame_tilt_rad.set(i, static_cast<float>(std::min(rules.tilt.tilt_rad(in), rules.parameters.maximum_tilt_rad)));
     const auto azimuth_rad = static_cast<float>(downwind_azimuth_rad(east_m_s, north_m_s));
     // Rounding to float may lift a value just below the full turn onto it.
-    state.flame_azimuth_rad.values[i] = static_cast<double>(azimuth_rad) < 2.0 * kPi ? azimuth_rad : 0.0F;
+    state.flame_azimuth_rad.set(i, static_cast<double>(azimuth_rad) < 2.0 * kPi ? azimuth_rad : 0.0F);
 }
 
 /// Size by the method of the scenario, as the method gives it: a height or a length.
@@ -158,17 +157,17 @@ double flame_size_m(const Rules& rules, const FrameInputs& frame, std::size_t ce
 void set_flame(FireState& state, std::size_t i, const FrameInputs& frame, const Rules& rules,
                const RunningStatistics& earlier) {
     const FireParameters& p = rules.parameters;
-    const double arrival_s = state.predicted_arrival_time_s.values.empty() ? state.arrival_time_s.values[i]
-                                                                           : state.predicted_arrival_time_s.values[i];
+    const double arrival_s =
+        state.predicted_arrival_time_s == nullptr ? state.arrival_time_s[i] : state.predicted_arrival_time_s->values[i];
     const CellFront front = front_of_cell(frame, i, arrival_s, p, state.flame_counts);
-    state.front_fraction.values[i] = static_cast<float>(front.fraction);
+    state.front_fraction.set(i, static_cast<float>(front.fraction));
 
     const bool mean_over_cell = rules.height.driver == FlameDriver::HeatFlux;
     const double size_m = flame_size_m(rules, frame, i, front);
     // Tilts that depend on the flame's size see that of the flame that stands there, not its mean over the cell.
     set_tilt(state, i, frame, rules, front, mean_over_cell ? size_m / front.fraction : size_m);
-    const double height_m = vertical_height_m(
-        rules.height.extent, size_m, static_cast<double>(state.flame_tilt_rad.values[i]), p.flames.height.stand_height_m);
+    const double height_m = vertical_height_m(rules.height.extent, size_m, static_cast<double>(state.flame_tilt_rad[i]),
+                                              p.flames.height.stand_height_m);
     if (!(height_m > 0.0)) {
         ++state.flame_counts.without_height;
         return;
@@ -176,8 +175,8 @@ void set_flame(FireState& state, std::size_t i, const FrameInputs& frame, const 
     const LimitedHeight limited =
         p.one_sigma_rule ? limit_height(height_m, earlier, p.physics) : LimitedHeight{height_m, 0.0};
     const double share = mean_over_cell ? 1.0 : front.fraction;
-    state.flame_height_m.values[i] = static_cast<float>(share * limited.flame_m);
-    state.ember_height_m.values[i] = static_cast<float>(share * limited.ember_m);
+    state.flame_height_m.set(i, static_cast<float>(share * limited.flame_m));
+    state.ember_height_m.set(i, static_cast<float>(share * limited.ember_m));
     state.height_statistics.add(height_m);
 }
 

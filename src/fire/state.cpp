@@ -18,13 +18,15 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 /// Fluxes below this are rounding of the fire model, not fire [W m-2].
 constexpr double kZeroFlux_W_m2 = 1e-3;
 
-template <class T>
-void require_grid(const Raster<T>& raster, const MapGrid& expected, const char* subject) {
-    if (!(raster.grid == expected) || raster.values.size() != expected.size())
+void require_grid(const MapGrid& grid, std::size_t cells, const MapGrid& expected, const char* subject) {
+    if (!(grid == expected) || cells != expected.size())
         throw input_error(subject,
                           fmt::format("its grid of {} x {} cells of {} m is not the heat flux's of {} x {} cells of {} m",
-                                      raster.grid.cols, raster.grid.rows, raster.grid.cell_m, expected.cols, expected.rows,
-                                      expected.cell_m));
+                                      grid.cols, grid.rows, grid.cell_m, expected.cols, expected.rows, expected.cell_m));
+}
+template <class T>
+void require_grid(const Raster<T>& raster, const MapGrid& expected, const char* subject) {
+    require_grid(raster.grid, raster.values.size(), expected, subject);
 }
 
 void require_positive(double value, const char* subject) {
@@ -63,29 +65,28 @@ void check(const FireState* previous, const FrameInputs& frame) {
     if (previous == nullptr) return;
     require_grid(previous->cell_class, grid, "previous state");
     for (const auto* raster : {&previous->arrival_time_s, &previous->last_burning_time_s})
-        require_grid(*raster, grid, "previous state");
-    if (!previous->predicted_arrival_time_s.values.empty())
-        require_grid(previous->predicted_arrival_time_s, grid, "previous state");
+        require_grid(raster->grid, raster->grid.size(), grid, "previous state");
+    if (previous->predicted_arrival_time_s) require_grid(*previous->predicted_arrival_time_s, grid, "previous state");
     if (!(frame.time_s > previous->time_s))
         throw input_error("frame time", fmt::format("{} s does not come after the previous frame at {} s", frame.time_s,
                                                     previous->time_s));
 }
 
-FireState blank_state(const FireState* previous, const FrameInputs& frame) {
+FireState blank_state(const FireState* previous, const FrameInputs& frame, double ambient_K) {
     const MapGrid& grid = frame.heat_flux_W_m2.grid;
     FireState state;
     state.time_s = frame.time_s;
     state.cell_class = Raster<std::uint8_t>(grid, "class", "1");
-    state.arrival_time_s = Raster<float>(grid, "arrival_time", "s", kNaN);
-    state.last_burning_time_s = Raster<float>(grid, "last_burning_time", "s", kNaN);
-    state.surface_temperature_K = Raster<float>(grid, "surface_temperature", "K", kNaN);
-    state.front_fraction = Raster<float>(grid, "front_fraction", "1");
-    state.flame_height_m = Raster<float>(grid, "flame_height", "m");
-    state.ember_height_m = Raster<float>(grid, "ember_height", "m");
-    state.flame_tilt_rad = Raster<float>(grid, "flame_tilt", "rad");
-    state.flame_azimuth_rad = Raster<float>(grid, "flame_azimuth", "rad");
+    state.arrival_time_s = SparseRaster<float>(grid, "arrival_time", "s", kNaN);
+    state.last_burning_time_s = SparseRaster<float>(grid, "last_burning_time", "s", kNaN);
+    state.surface_temperature_K = SparseRaster<float>(grid, "surface_temperature", "K", static_cast<float>(ambient_K));
+    state.front_fraction = SparseRaster<float>(grid, "front_fraction", "1");
+    state.flame_height_m = SparseRaster<float>(grid, "flame_height", "m");
+    state.ember_height_m = SparseRaster<float>(grid, "ember_height", "m");
+    state.flame_tilt_rad = SparseRaster<float>(grid, "flame_tilt", "rad");
+    state.flame_azimuth_rad = SparseRaster<float>(grid, "flame_azimuth", "rad");
     if (frame.arrival_time_s) {
-        state.predicted_arrival_time_s = *frame.arrival_time_s;
+        state.predicted_arrival_time_s = frame.arrival_time_s;
     } else if (previous != nullptr) {
         state.predicted_arrival_time_s = previous->predicted_arrival_time_s;
     }
@@ -105,24 +106,24 @@ CellClass label(bool is_front, bool has_history, bool has_flux) noexcept {
 
 /// Class, arrival and scar clock of every cell.
 void label_cells(FireState& state, const FireState* previous, const FrameInputs& frame, double threshold_W_m2) {
-    const bool has_arrival = !state.predicted_arrival_time_s.values.empty();
+    const Raster<float>* const predicted = state.predicted_arrival_time_s.get();
     const auto now_s = static_cast<float>(frame.time_s);
     for (std::size_t i = 0; i < state.cell_class.values.size(); ++i) {
         const float flux = frame.heat_flux_W_m2.values[i];
         const bool has_flux = std::isfinite(flux);
         const bool is_front = has_flux && flux >= kZeroFlux_W_m2 && flux > threshold_W_m2;
-        const float given_s = has_arrival ? state.predicted_arrival_time_s.values[i] : kNaN;
+        const float given_s = predicted != nullptr ? predicted->values[i] : kNaN;
         const float reached_s = static_cast<double>(given_s) <= frame.time_s ? given_s : kNaN;
-        const float earlier_s = previous != nullptr ? previous->arrival_time_s.values[i] : kNaN;
-        const float clock_s = later(previous != nullptr ? previous->last_burning_time_s.values[i] : kNaN, reached_s);
+        const float earlier_s = previous != nullptr ? previous->arrival_time_s[i] : kNaN;
+        const float clock_s = later(previous != nullptr ? previous->last_burning_time_s[i] : kNaN, reached_s);
         const bool has_history = !std::isnan(reached_s) || !std::isnan(earlier_s);
         const bool burns_again =
             is_front && previous != nullptr && previous->cell_class.values[i] == static_cast<std::uint8_t>(CellClass::Scar);
 
         state.cell_class.values[i] = static_cast<std::uint8_t>(label(is_front, has_history, has_flux));
-        state.last_burning_time_s.values[i] = is_front ? now_s : clock_s;
+        state.last_burning_time_s.set(i, is_front ? now_s : clock_s);
         const float seen_s = (std::isnan(earlier_s) && is_front) || burns_again ? now_s : earlier_s;
-        state.arrival_time_s.values[i] = std::isnan(reached_s) ? seen_s : reached_s;
+        state.arrival_time_s.set(i, std::isnan(reached_s) ? seen_s : reached_s);
     }
 }
 
@@ -139,9 +140,10 @@ void set_temperatures(FireState& state, const FireParameters& p) {
             case CellClass::Unburned:
                 break;
             case CellClass::NoData:
-                continue;
+                T_K = std::numeric_limits<double>::quiet_NaN();
+                break;
         }
-        state.surface_temperature_K.values[i] = static_cast<float>(T_K);
+        state.surface_temperature_K.set(i, static_cast<float>(T_K));
     }
 }
 
@@ -155,13 +157,13 @@ double heat_release_W(const FrameInputs& frame) {
 }  // namespace
 
 float scar_clock_s(const FireState& state, Physics physics, std::size_t cell) noexcept {
-    return physics == Physics::Thesis ? state.last_burning_time_s.values[cell] : state.arrival_time_s.values[cell];
+    return physics == Physics::Thesis ? state.last_burning_time_s[cell] : state.arrival_time_s[cell];
 }
 
 FireState advance(const FireState* previous, const FrameInputs& frame, const FireParameters& parameters) {
     check(parameters);
     check(previous, frame);
-    FireState state = blank_state(previous, frame);
+    FireState state = blank_state(previous, frame, parameters.ambient_temperature_K);
     label_cells(state, previous, frame, parameters.front_threshold_W_m2);
     set_temperatures(state, parameters);
     set_flames(state, frame, parameters);

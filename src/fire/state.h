@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/raster.h"
+#include "base/sparse_raster.h"
 #include "fire/embers.h"
 #include "fire/flame_relations.h"
 
@@ -78,7 +79,7 @@ struct FrameInputs {
     double time_s = 0.0;                          ///< since ignition
     Raster<float> heat_flux_W_m2;                 ///< surface fire sensible heat flux, cell mean; not finite = no data
     Raster<float> wind_east_m_s, wind_north_m_s;  ///< along the grid's axes; not finite = calm
-    std::optional<Raster<float>> arrival_time_s;  ///< seconds since ignition, NaN = never reached
+    SharedRaster<float> arrival_time_s;           ///< seconds since ignition, NaN = never reached; null = not given
     Raster<std::uint8_t> scar_class;              ///< 0 = FireParameters::scar, n = scar_of_cover[n - 1]; no values = all 0
     const FrontInputs* front = nullptr;           ///< not owned; null = nothing but the flux is known
 };
@@ -91,7 +92,7 @@ struct FlameCounts {
 };
 
 /// What the fire has done up to one frame: a pure function of the previous state and this frame's inputs. Its size does not
-/// depend on the number of frames.
+/// depend on the number of frames; but for a class per cell and the arrival raster it follows the burnt area, not the map.
 ///
 /// To continue from a stored state, advance() needs, to the bit: time_s, cell_class, arrival_time_s, last_burning_time_s,
 /// height_statistics, embers and, when frames come without an arrival raster of their own, predicted_arrival_time_s.
@@ -99,18 +100,19 @@ struct FlameCounts {
 /// ember_height_m, flame_tilt_rad and flame_azimuth_rad. surface_temperature_K is for people: nothing reads it.
 struct FireState {
     double time_s = 0.0;
-    Raster<std::uint8_t> cell_class;  ///< CellClass
-    Raster<float> arrival_time_s;     ///< first time the cell burned (from the arrival raster when given), NaN = not yet
-    Raster<float> predicted_arrival_time_s;  ///< the arrival raster as given, later times too; no values when none was given
-    Raster<float> last_burning_time_s;       ///< last time the cell is known to have burned, NaN = never
-    Raster<float> surface_temperature_K;     ///< at time_s: front, scar curve or ambient
-    Raster<std::uint8_t> scar_class;         ///< as given with the frames; no values when none was given
-    Raster<float> front_fraction;            ///< area fraction of the cell that flames, 0 outside the front
-    Raster<float> flame_height_m;            ///< eq 4.22 mean over the cell, after the one-sigma rule [m]
-    Raster<float> ember_height_m;            ///< part of the height beyond one sigma, detached above the flame
-    Raster<float> flame_tilt_rad;            ///< from the vertical, 0 = upright
-    Raster<float> flame_azimuth_rad;         ///< direction the flame leans to, clockwise from grid north
-    RunningStatistics height_statistics;     ///< of all frames up to and including this one
+    Raster<std::uint8_t> cell_class;     ///< CellClass
+    SparseRaster<float> arrival_time_s;  ///< first time the cell burned (from the arrival raster when given), NaN = not yet
+    SharedRaster<float>
+        predicted_arrival_time_s;               ///< the arrival raster as given, later times too; null when none was given
+    SparseRaster<float> last_burning_time_s;    ///< last time the cell is known to have burned, NaN = never
+    SparseRaster<float> surface_temperature_K;  ///< at time_s: front, scar curve or ambient
+    Raster<std::uint8_t> scar_class;            ///< as given with the frames; no values when none was given
+    SparseRaster<float> front_fraction;         ///< area fraction of the cell that flames, 0 outside the front
+    SparseRaster<float> flame_height_m;         ///< eq 4.22 mean over the cell, after the one-sigma rule [m]
+    SparseRaster<float> ember_height_m;         ///< part of the height beyond one sigma, detached above the flame
+    SparseRaster<float> flame_tilt_rad;         ///< from the vertical, 0 = upright
+    SparseRaster<float> flame_azimuth_rad;      ///< direction the flame leans to, clockwise from grid north
+    RunningStatistics height_statistics;        ///< of all frames up to and including this one
     std::vector<Ember> embers;    ///< detached flame still hot, oldest frame first; empty when embers do not drift
     double heat_release_W = 0.0;  ///< sum of positive heat flux x cell area over the whole map
     FlameCounts flame_counts;     ///< of this frame alone; not kept in files

@@ -44,13 +44,13 @@ float scar_K(const Context& c, std::size_t cell, double clock_s) noexcept {
 void list_fine_cells(const Context& c, const SurfaceField& out, int row, int col, std::vector<FineCell>& fine) {
     const int n = out.refinement;
     // Without its own arrival time a cell has no shape inside, whatever its neighbours say.
-    const bool shaped = c.has_arrival && !std::isnan(c.state.predicted_arrival_time_s.at(row, col));
+    const bool shaped = c.has_arrival && !std::isnan(c.state.predicted_arrival_time_s->at(row, col));
     fine.clear();
     for (int r = row * n; r < (row + 1) * n; ++r) {
         for (int k = col * n; k < (col + 1) * n; ++k) {
             FineCell cell{.number = out.grid.index(r, k), .index = out.index(r, k)};
             if (shaped) {
-                cell.arrival_s = bilinear_or_own(c.state.predicted_arrival_time_s, (k + 0.5) / n, (r + 0.5) / n);
+                cell.arrival_s = bilinear_or_own(*c.state.predicted_arrival_time_s, (k + 0.5) / n, (r + 0.5) / n);
                 cell.reached = cell.arrival_s <= c.time_s;
             }
             fine.push_back(cell);
@@ -62,7 +62,7 @@ void list_fine_cells(const Context& c, const SurfaceField& out, int row, int col
 /// but not all of it, the rest is still vegetation.
 void fill_scar(const Context& c, SurfaceField& out, std::size_t cell, const std::vector<FineCell>& fine) {
     const float clock_s = scar_clock_s(c.state, c.parameters.physics, cell);
-    const bool partly_reached = c.has_arrival && c.state.predicted_arrival_time_s.values[cell] <= c.time_s;
+    const bool partly_reached = c.has_arrival && c.state.predicted_arrival_time_s->values[cell] <= c.time_s;
     for (const FineCell& f : fine) {
         if (partly_reached && !f.reached) continue;
         const bool own = !std::isnan(f.arrival_s) && f.reached;
@@ -102,8 +102,8 @@ void distribute_flames(const Context& c, SurfaceField& out, std::size_t cell, do
 /// Ground of a front cell: flames, the part they have left behind and the part they have not reached. Without arrival data
 /// the part that does not flame is vegetation in the first frame that shows the cell burning, and scar from then on.
 void fill_front(const Context& c, SurfaceField& out, std::size_t cell, std::vector<FineCell>& fine) {
-    const float fraction = c.state.front_fraction.values[cell];
-    const float first_burning_s = c.state.arrival_time_s.values[cell];
+    const float fraction = c.state.front_fraction[cell];
+    const float first_burning_s = c.state.arrival_time_s[cell];
     const bool fresh = first_burning_s >= c.state.time_s;
     for (const FineCell& f : fine) {
         if (!f.reached || (std::isnan(f.arrival_s) && fresh)) continue;
@@ -128,12 +128,12 @@ SurfaceField blank_field(const FireState& state, const FireParameters& parameter
     out.ambient_temperature_K = parameters.ambient_temperature_K;
     // Blocks that many cells share first, then one for each cell that burns or has burnt.
     const auto& classes = state.cell_class.values;
-    out.block_of_cell.assign(classes.size(), kPlain);
+    out.block_of_cell = SparseRaster<std::int32_t>(state.cell_class.grid, "block", "1", kPlain);
     std::int32_t next = static_cast<std::int32_t>(SurfaceField::kSharedBlocks);
     for (std::size_t i = 0; i < classes.size(); ++i) {
         const auto c = static_cast<CellClass>(classes[i]);
-        if (c == CellClass::NoData) out.block_of_cell[i] = kNoData;
-        if (c == CellClass::Front || c == CellClass::Scar) out.block_of_cell[i] = next++;
+        if (c == CellClass::NoData) out.block_of_cell.set(i, kNoData);
+        if (c == CellClass::Front || c == CellClass::Scar) out.block_of_cell.set(i, next++);
     }
     const auto block_size = static_cast<std::size_t>(refinement) * static_cast<std::size_t>(refinement);
     const std::size_t size = static_cast<std::size_t>(next) * block_size;
@@ -151,7 +151,7 @@ SurfaceField surface_at(const FireState& state, double time_s, const FireParamet
     if (!(time_s >= state.time_s))
         throw input_error("acquisition time", fmt::format("{} s lies before the fire state at {} s", time_s, state.time_s));
     SurfaceField out = blank_field(state, parameters, refinement);
-    const bool has_arrival = parameters.physics == Physics::Default && !state.predicted_arrival_time_s.values.empty();
+    const bool has_arrival = parameters.physics == Physics::Default && state.predicted_arrival_time_s != nullptr;
     const Context context{
         state, parameters, time_s, has_arrival, {parameters.seed, stream_id("flaming patches"), random_frame(state.time_s)}};
     std::vector<FineCell> fine;

@@ -12,9 +12,9 @@ namespace pyroscene::fire {
 /// cell each; map cells that are all alike (vegetation at ambient temperature, no data) share one block, so that memory follows
 /// the fire and not the map.
 struct SurfaceField {
-    MapGrid grid;                             ///< the fine grid, same corner and CRS as the map
-    int refinement = 1;                       ///< fine cells per map cell and axis
-    std::vector<std::int32_t> block_of_cell;  ///< [map cell]; empty = every map cell has a block of its own, in their order
+    MapGrid grid;                              ///< the fine grid, same corner and CRS as the map
+    int refinement = 1;                        ///< fine cells per map cell and axis
+    SparseRaster<std::int32_t> block_of_cell;  ///< on the map; empty = every map cell has a block of its own, in their order
     std::vector<float> base_temperature_K;  ///< [block][row][col] ground that does not flame: scar or ambient; NaN = no data
     std::vector<float> front_fraction;      ///< [block][row][col] part of the fine cell at front_temperature_K
     std::vector<std::uint8_t> burned;       ///< [block][row][col] 1 = burnt or burning (char), 0 = vegetation

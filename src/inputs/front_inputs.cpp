@@ -37,8 +37,7 @@ struct Needs {
     }
 };
 
-std::optional<Raster<float>> spread_rate(const Scenario& s, const MapGrid& grid,
-                                         const std::optional<Raster<float>>& arrival_s) {
+std::optional<Raster<float>> spread_rate(const Scenario& s, const MapGrid& grid, const SharedRaster<float>& arrival_s) {
     std::optional<Raster<float>> rate;
     if (arrival_s) rate = fire::spread_rate_m_s(*arrival_s, s.fire.flames.maximum_spread_rate_m_s);
     if (!s.inputs.spread_rate) return rate;
@@ -72,7 +71,7 @@ std::map<int, double> fuel_residence_times_s(const std::string& table) {
 }
 
 fire::FrontInputs load_front_inputs(const Scenario& scenario, const Raster<float>& terrain_m,
-                                    const std::optional<Raster<float>>& arrival_time_s, const ModelledFire* modelled) {
+                                    const SharedRaster<float>& arrival_time_s, const ModelledFire* modelled) {
     const MapGrid& grid = terrain_m.grid;
     const auto& inputs = scenario.inputs;
     const Needs needs(scenario);

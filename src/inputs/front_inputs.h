@@ -16,8 +16,7 @@ namespace pyroscene::inputs {
 /// or one in a unit of another quantity.
 /// \param modelled  a fire that knows intensity, flame length, spread rate and fuel by itself; else null
 fire::FrontInputs load_front_inputs(const scenario::Scenario& scenario, const Raster<float>& terrain_m,
-                                    const std::optional<Raster<float>>& arrival_time_s,
-                                    const ModelledFire* modelled = nullptr);
+                                    const SharedRaster<float>& arrival_time_s, const ModelledFire* modelled = nullptr);
 
 /// Flame residence time [s] per code of a shipped fuel table, fbfm13 or fbfm40 (data/fuel; Anderson 1969 by the characteristic
 /// surface-to-volume ratio). Codes that carry no fire are left out.

@@ -116,15 +116,15 @@ SceneInputs load_scene_inputs(const Scenario& scenario, const std::function<void
         });
     if (in.modelled) {
         for (const double time_s : in.modelled->frames_s) in.frames.push_back({{}, 0, time_s});
-        in.arrival_time_s = in.modelled->ground.arrival_time_s;
+        in.arrival_time_s = share(in.modelled->ground.arrival_time_s);
     } else {
         in.frames = heat_flux_frames(scenario.inputs.heat_flux);
     }
     in.cover = cover_materials(scenario, in.grid, in.cover_names);
     in.scar_class = scar_classes(scenario, in.grid);
     if (const auto& arrival = scenario.inputs.arrival)
-        in.arrival_time_s = gis::read_band(
-            {arrival->files.front(), first_band(*arrival), gis::Resampling::Bilinear, "arrival time", "s"}, in.grid);
+        in.arrival_time_s = share(gis::read_band(
+            {arrival->files.front(), first_band(*arrival), gis::Resampling::Bilinear, "arrival time", "s"}, in.grid));
     in.front = load_front_inputs(scenario, in.terrain_m, in.arrival_time_s, in.modelled ? &*in.modelled : nullptr);
     if (levels != nullptr) in.front.midflame_wind = levels->to_midflame;
     in.origin_m = {0.5 * (in.grid.west_m + in.grid.east_m()), 0.5 * (in.grid.south_m() + in.grid.north_m), 0.0};

@@ -24,7 +24,7 @@ struct SceneInputs {
     Raster<float> terrain_m;               ///< ellipsoidal height
     Raster<std::uint8_t> cover;            ///< index into the surface library of unburnt ground
     std::vector<std::string> cover_names;  ///< what the indices mean (surface spectrum names)
-    std::optional<Raster<float>> arrival_time_s;
+    SharedRaster<float> arrival_time_s;
     fire::FrontInputs front;                ///< what the scenario's flame relations read
     Raster<std::uint8_t> scar_class;        ///< see fire::FrameInputs::scar_class
     std::optional<WindLevels> wind_levels;  ///< where inputs.wind says its height

@@ -44,7 +44,7 @@ TimeRange times_of(const fire::FireState& state) {
     TimeRange range{state.time_s, 0.0};
     for (std::size_t i = 0; i < state.cell_class.values.size(); ++i) {
         const auto c = static_cast<fire::CellClass>(state.cell_class.values[i]);
-        const double t_s = state.arrival_time_s.values[i];
+        const double t_s = state.arrival_time_s[i];
         if (c == fire::CellClass::Scar && std::isfinite(t_s)) range.first_s = std::min(range.first_s, t_s);
     }
     range.last_s = std::max(state.time_s, range.first_s + 1.0);

@@ -131,7 +131,7 @@ std::vector<VectorLayer> heat(const IncidentMapTitle& title, const fire::FireSta
     for (std::size_t i = 0; i < grid.size(); ++i) {
         if (is(state, i, CellClass::Front))
             cells[i] = analysis::Heat::Flaming;
-        else if (is(state, i, CellClass::Scar) && static_cast<double>(state.surface_temperature_K.values[i]) >= title.hot_K)
+        else if (is(state, i, CellClass::Scar) && static_cast<double>(state.surface_temperature_K[i]) >= title.hot_K)
             cells[i] = analysis::Heat::Hot;
     }
     const int join_cells = std::max(1, static_cast<int>(std::lround(kJoin_m / grid.cell_m)));
@@ -146,7 +146,7 @@ std::vector<VectorLayer> heat(const IncidentMapTitle& title, const fire::FireSta
         const auto row = static_cast<int>(i / static_cast<std::size_t>(grid.cols)),
                    col = static_cast<int>(i % static_cast<std::size_t>(grid.cols));
         points.add("Isolated Heat", {{{grid.x_centre_m(col), grid.y_centre_m(row)}}},
-                   {static_cast<double>(state.surface_temperature_K.values[i])});
+                   {static_cast<double>(state.surface_temperature_K[i])});
     }
     MapLayer polygons(title, grid.crs_wkt, "heat", gis::GeometryKind::Polygon, "PEN(c:#FF7F00,w:1px);BRUSH(fc:#FF7F0099)",
                       area_fields());

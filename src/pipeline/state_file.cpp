@@ -1,5 +1,6 @@
 #include "pipeline/state_file.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,7 +10,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "drawing/qgis_style.h"
-#include "gis/raster_output.h"
+#include "gis/image_stream.h"
+#include "gis/tiff_writer.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -20,7 +22,7 @@ using fire::FireState;
 struct StateBand {
     const char* name;
     const char* unit;
-    Raster<float> FireState::*raster;
+    SparseRaster<float> FireState::*raster;
     double to_file;
 };
 constexpr StateBand kBands[] = {
@@ -90,6 +92,30 @@ std::vector<fire::Ember> read_embers(const std::filesystem::path& path, std::siz
     return embers;
 }
 
+/// Some rows of one band at a time.
+void write_bands(const std::filesystem::path& path, const FireState& state, gis::OutputRaster raster) {
+    const auto cols = static_cast<std::size_t>(raster.cols);
+    const int rows = raster.rows;
+    gis::TiffWriter writer(path, std::move(raster));
+    const auto& classes = state.cell_class.values;
+    std::vector<float> pixels;
+    for (std::size_t b = 0; b <= std::size(kBands); ++b)
+        for (int first = 0; first < rows; first += writer.tile_rows()) {
+            const int count = std::min(writer.tile_rows(), rows - first);
+            const std::size_t begin = static_cast<std::size_t>(first) * cols;
+            pixels.resize(static_cast<std::size_t>(count) * cols);
+            if (b == 0) {
+                std::copy_n(classes.begin() + static_cast<std::ptrdiff_t>(begin), pixels.size(), pixels.begin());
+            } else {
+                const StateBand& band = kBands[b - 1];
+                (state.*band.raster).copy(begin, pixels);
+                for (float& v : pixels) v = static_cast<float>(v * band.to_file);
+            }
+            writer.write({b, 1, first, count}, pixels);
+        }
+    writer.finish();
+}
+
 }  // namespace
 
 std::filesystem::path state_path(const std::filesystem::path& output, double time_s) {
@@ -106,11 +132,7 @@ void write_state(const std::filesystem::path& path, const FireState& state, cons
     out.rows = grid.rows;
     out.acquisition_time = acquisition_time;
     out.bands.push_back({"class (0 unburned, 1 front, 2 scar, 255 no data)", "1", {}, {}, {}});
-    std::vector<float> pixels(state.cell_class.values.begin(), state.cell_class.values.end());
-    for (const auto& band : kBands) {
-        out.bands.push_back({band.name, band.unit, {}, {}, {}});
-        for (const float v : (state.*band.raster).values) pixels.push_back(static_cast<float>(v * band.to_file));
-    }
+    for (const auto& band : kBands) out.bands.push_back({band.name, band.unit, {}, {}, {}});
     const auto& statistics = state.height_statistics;
     out.metadata = {{"FINGERPRINT", fingerprint},
                     {"TIME_S", fmt::format("{}", state.time_s)},
@@ -122,32 +144,35 @@ void write_state(const std::filesystem::path& path, const FireState& state, cons
     // The table first: a state file that exists is complete.
     if (!state.embers.empty()) write_embers(ember_path(path), state.embers);
     drawing::write_qgis_style(path, {{0, "#dfe8d2", "unburned"}, {1, "#e31a1c", "front"}, {2, "#5a5048", "scar"}});
-    gis::write_geotiff(path, out, std::span<const float>(pixels));
+    write_bands(path, state, std::move(out));
 }
 
-FireState read_state(const std::filesystem::path& path, const MapGrid& grid,
-                     const std::optional<Raster<float>>& predicted_arrival) {
-    const auto image = gis::read_image(path);
-    if (image.cols != grid.cols || image.rows != grid.rows || image.bands.size() != std::size(kBands) + 1)
+FireState read_state(const std::filesystem::path& path, const MapGrid& grid, const SharedRaster<float>& predicted_arrival) {
+    gis::ImageStream image(path);
+    const auto& info = image.info();
+    if (info.cols != grid.cols || info.rows != grid.rows || info.bands.size() != std::size(kBands) + 1)
         throw runtime_error(path.string(), "is not a state of this scenario; run again with --force");
     FireState state;
-    state.time_s = number(image.metadata, "TIME_S", path);
-    state.height_statistics.count = static_cast<std::int64_t>(number(image.metadata, "HEIGHT_COUNT", path));
-    state.height_statistics.mean_m = number(image.metadata, "HEIGHT_MEAN_M", path);
-    state.height_statistics.m2_m2 = number(image.metadata, "HEIGHT_M2_M2", path);
-    state.heat_release_W = number(image.metadata, "HEAT_RELEASE_W", path);
-    state.embers = read_embers(ember_path(path), static_cast<std::size_t>(number(image.metadata, "EMBER_COUNT", path)));
+    state.time_s = number(info.metadata, "TIME_S", path);
+    state.height_statistics.count = static_cast<std::int64_t>(number(info.metadata, "HEIGHT_COUNT", path));
+    state.height_statistics.mean_m = number(info.metadata, "HEIGHT_MEAN_M", path);
+    state.height_statistics.m2_m2 = number(info.metadata, "HEIGHT_M2_M2", path);
+    state.heat_release_W = number(info.metadata, "HEAT_RELEASE_W", path);
+    state.embers = read_embers(ember_path(path), static_cast<std::size_t>(number(info.metadata, "EMBER_COUNT", path)));
     state.cell_class = Raster<std::uint8_t>(grid, "class", "1");
     const std::size_t n = grid.size();
+    auto pixels = image.read_band(1);
     for (std::size_t i = 0; i < n; ++i)
-        state.cell_class.values[i] = static_cast<std::uint8_t>(std::isnan(image.pixels[i]) ? 255.0 : image.pixels[i]);
+        state.cell_class.values[i] = static_cast<std::uint8_t>(std::isnan(pixels[i]) ? 255.0F : pixels[i]);
     for (std::size_t b = 0; b < std::size(kBands); ++b) {
+        pixels = image.read_band(static_cast<int>(b) + 2);
+        const auto value = [&](std::size_t i) { return static_cast<float>(pixels[i] / kBands[b].to_file); };
+        // What the first cell has, most cells have: nothing burns there.
         auto& raster = state.*kBands[b].raster;
-        raster = Raster<float>(grid, kBands[b].name, kBands[b].unit);
-        for (std::size_t i = 0; i < n; ++i)
-            raster.values[i] = static_cast<float>(image.pixels[(b + 1) * n + i] / kBands[b].to_file);
+        raster = SparseRaster<float>(grid, kBands[b].name, kBands[b].unit, value(0));
+        for (std::size_t i = 0; i < n; ++i) raster.set(i, value(i));
     }
-    if (predicted_arrival) state.predicted_arrival_time_s = *predicted_arrival;
+    state.predicted_arrival_time_s = predicted_arrival;
     return state;
 }
 

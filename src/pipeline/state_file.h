@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
 #include "fire/state.h"
 
@@ -16,6 +15,6 @@ void write_state(const std::filesystem::path& path, const fire::FireState& state
 
 /// Reads it back. `predicted_arrival` is the scenario's arrival raster, which the file does not repeat.
 fire::FireState read_state(const std::filesystem::path& path, const MapGrid& grid,
-                           const std::optional<Raster<float>>& predicted_arrival);
+                           const SharedRaster<float>& predicted_arrival);
 
 }  // namespace pyroscene::pipeline

@@ -31,10 +31,12 @@ void check_surface(const fire::SurfaceField& surface) {
     const std::size_t map_cells = surface.grid.size() / (n * n);
     std::size_t cells = surface.grid.size();
     if (const auto& blocks = surface.block_of_cell; !blocks.empty()) {
-        check_length(blocks.size(), map_cells, "block_of_cell");
-        const auto [least, most] = std::minmax_element(blocks.begin(), blocks.end());
-        require(*least >= 0, "scene", "block_of_cell holds a negative number");
-        cells = std::max(static_cast<std::size_t>(*most) + 1, fire::SurfaceField::kSharedBlocks) * n * n;
+        check_length(blocks.grid.size(), map_cells, "block_of_cell");
+        std::int32_t least = 0, most = 0;
+        for (std::size_t cell = 0; cell < map_cells; ++cell)
+            least = std::min(least, blocks[cell]), most = std::max(most, blocks[cell]);
+        require(least >= 0, "scene", "block_of_cell holds a negative number");
+        cells = std::max(static_cast<std::size_t>(most) + 1, fire::SurfaceField::kSharedBlocks) * n * n;
     }
     check_length(surface.base_temperature_K.size(), cells, "base_temperature_K");
     check_length(surface.front_fraction.size(), cells, "front_fraction");

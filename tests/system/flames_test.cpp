@@ -159,15 +159,15 @@ protected:
     }
 
     /// Value of the only kind that burning cells have.
-    static double burning(const fire::FireState& state, const Raster<float>& raster) {
+    static double burning(const fire::FireState& state, const SparseRaster<float>& raster) {
         double found = std::nan("");
         int count = 0;
-        for (std::size_t i = 0; i < raster.values.size(); ++i) {
+        for (std::size_t i = 0; i < raster.grid.size(); ++i) {
             if (state.cell_class.values[i] != static_cast<std::uint8_t>(fire::CellClass::Front)) continue;
             if (count++ > 0) {
-                EXPECT_NEAR(raster.values[i], found, 1e-4 * std::abs(found));
+                EXPECT_NEAR(raster[i], found, 1e-4 * std::abs(found));
             }
-            found = raster.values[i];
+            found = raster[i];
         }
         EXPECT_GT(count, 10);
         return found;
@@ -233,9 +233,9 @@ TEST_F(RunningFront, ResumesAndNoticesOtherMethods) {
     const auto resumed = prepare(kFuel_, fire, report);
     EXPECT_EQ(report.counters().at("states_skipped"), 1);
     EXPECT_EQ(report.counters().at("states_made"), 1);
-    EXPECT_EQ(whole.flame_height_m.values, resumed.flame_height_m.values);
-    EXPECT_EQ(whole.flame_tilt_rad.values, resumed.flame_tilt_rad.values);
-    EXPECT_EQ(whole.front_fraction.values, resumed.front_fraction.values);
+    for (const auto field :
+         {&fire::FireState::flame_height_m, &fire::FireState::flame_tilt_rad, &fire::FireState::front_fraction})
+        for (std::size_t i = 0; i < whole.cell_class.values.size(); ++i) EXPECT_EQ((whole.*field)[i], (resumed.*field)[i]);
     for (const auto& changed :
          {"  flame_height: {method: thomas}\n  front_depth: {method: residence_time, residence_time_s: 20}\n",
           "  flame_height: {method: byram}\n  front_depth: {method: residence_time, residence_time_s: 21}\n",

@@ -136,7 +136,8 @@ TEST(Embers, NoneWithoutTheRule) {
 TEST(Embers, LeaveFromWhereTheFrontIs) {
     const FireParameters p;
     const auto with_arrival = [](FrameInputs in) {
-        in.arrival_time_s = test::raster(in.heat_flux_W_m2.grid, {0.0F, 20.0F, 40.0F});  // 1 m/s eastward from x = 1010
+        in.arrival_time_s =
+            share(test::raster(in.heat_flux_W_m2.grid, {0.0F, 20.0F, 40.0F}));  // 1 m/s eastward from x = 1010
         return in;
     };
     FireState state = advance(nullptr, with_arrival(story()[0]), p);

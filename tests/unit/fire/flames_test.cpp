@@ -229,9 +229,9 @@ TEST(Flames, OfEveryMethodKeepTheirVolumeUnderTheOneSigmaRule) {
         const auto first = frame(0.0, {4e5F, 5e5F, 6e5F}), second = frame(6.0, {4e5F, 5e6F, 1e5F});
         const auto before = advance(nullptr, first, p);
         const auto limited = advance(&before, second, p), unlimited = advance(&before, second, free);
-        EXPECT_GT(test::sum(limited.ember_height_m.values), 0.0);
-        EXPECT_NEAR(test::sum(limited.flame_height_m.values) + test::sum(limited.ember_height_m.values),
-                    test::sum(unlimited.flame_height_m.values), 1e-4);
+        EXPECT_GT(test::sum(limited.ember_height_m), 0.0);
+        EXPECT_NEAR(test::sum(limited.flame_height_m) + test::sum(limited.ember_height_m),
+                    test::sum(unlimited.flame_height_m), 1e-4);
     }
 }
 
@@ -244,11 +244,11 @@ TEST(Flames, OfEveryTiltMethodStayBelowTheMaximum) {
         for (const Physics physics : {Physics::Default, Physics::Thesis}) {
             p.physics = physics;
             const auto s = advance(nullptr, frame(0.0, {1001.0F, 1e6F}, 0.0F, 80.0F), p);
-            for (const float tilt_rad : s.flame_tilt_rad.values) EXPECT_LE(tilt_rad, 0.5F);
+            for (const float tilt_rad : test::dense(s.flame_tilt_rad)) EXPECT_LE(tilt_rad, 0.5F);
         }
         p.physics = Physics::Default;
         const auto calm = advance(nullptr, frame(0.0, {1001.0F, 1e6F}), p);
-        EXPECT_EQ(test::sum(calm.flame_tilt_rad.values), 0.0);
+        EXPECT_EQ(test::sum(calm.flame_tilt_rad), 0.0);
     }
 }
 

@@ -35,7 +35,7 @@ inline FrameInputs frame(double time_s, std::vector<float> heat_flux_W_m2, float
 
 inline FrameInputs frame_with_arrival(double time_s, std::vector<float> heat_flux_W_m2, std::vector<float> arrival_s) {
     FrameInputs in = frame(time_s, std::move(heat_flux_W_m2));
-    in.arrival_time_s = raster(in.heat_flux_W_m2.grid, std::move(arrival_s));
+    in.arrival_time_s = share(raster(in.heat_flux_W_m2.grid, std::move(arrival_s)));
     return in;
 }
 
@@ -46,5 +46,13 @@ inline double sum(const std::vector<float>& values) {
     for (const float v : values) total += v;
     return total;
 }
+
+inline std::vector<float> dense(const SparseRaster<float>& raster) {
+    std::vector<float> values(raster.grid.size());
+    raster.copy(0, values);
+    return values;
+}
+
+inline double sum(const SparseRaster<float>& raster) { return sum(dense(raster)); }
 
 }  // namespace pyroscene::fire::test

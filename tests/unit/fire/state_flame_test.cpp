@@ -38,7 +38,7 @@ TEST(Heights, TheFirstFrameIsUnlimited) {
         EXPECT_FLOAT_EQ(s.flame_height_m.at(0, 1), 1e-3F);
         EXPECT_FLOAT_EQ(s.flame_height_m.at(0, 2), 0.5F);
         EXPECT_FLOAT_EQ(s.flame_height_m.at(0, 3), 2.96F);
-        EXPECT_EQ(test::sum(s.ember_height_m.values), 0.0);
+        EXPECT_EQ(test::sum(s.ember_height_m), 0.0);
         EXPECT_EQ(s.height_statistics.count, 3);
     }
 }
@@ -77,7 +77,7 @@ TEST(Heights, FlamePlusEmberIsWhatTheFluxDelivers) {
         s = advance(k == 0 ? nullptr : &s, frame(6.0 * k, {2e3F, 4e5F * static_cast<float>(k + 1), 3e6F, 7e4F}),
                     FireParameters{});
         const double delivered_m = (2e3 + 4e5 * (k + 1) + 3e6 + 7e4) / 2e6;
-        EXPECT_NEAR(test::sum(s.flame_height_m.values) + test::sum(s.ember_height_m.values), delivered_m, 1e-6);
+        EXPECT_NEAR(test::sum(s.flame_height_m) + test::sum(s.ember_height_m), delivered_m, 1e-6);
     }
 }
 

@@ -13,15 +13,15 @@ Fronts fronts_of(int cols, int rows, const F& burns, float heat_flux_W_m2 = 1e5F
     const MapGrid grid{.cols = cols, .rows = rows, .west_m = 1000.0, .north_m = 9000.0, .cell_m = 20.0, .crs_wkt = "test"};
     fire::FireState state;
     state.cell_class = Raster<std::uint8_t>(grid, "class", "1");
-    state.front_fraction = Raster<float>(grid, "front_fraction", "1");
-    state.flame_height_m = Raster<float>(grid, "flame_height", "m");
+    state.front_fraction = SparseRaster<float>(grid, "front_fraction", "1");
+    state.flame_height_m = SparseRaster<float>(grid, "flame_height", "m");
     Raster<float> flux(grid, "heat flux", "W m-2");
     for (int row = 0; row < rows; ++row)
         for (int col = 0; col < cols; ++col)
             if (burns(col, row)) {
                 state.cell_class.at(row, col) = static_cast<std::uint8_t>(fire::CellClass::Front);
-                state.front_fraction.at(row, col) = 0.5F;
-                state.flame_height_m.at(row, col) = 1.0F;
+                state.front_fraction.set(grid.index(row, col), 0.5F);
+                state.flame_height_m.set(grid.index(row, col), 1.0F);
                 flux.at(row, col) = heat_flux_W_m2;
             }
     return find_fronts(state, flux);

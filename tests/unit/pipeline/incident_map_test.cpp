@@ -22,11 +22,11 @@ fire::FireState state() {
     fire::FireState s;
     s.cell_class = Raster<std::uint8_t>(grid, "class", "1");
     for (auto* raster : {&s.surface_temperature_K, &s.front_fraction, &s.flame_height_m})
-        *raster = Raster<float>(grid, "value", "1");
+        *raster = SparseRaster<float>(grid, "value", "1");
     const auto set = [&](int row, int col, CellClass c, float T_K) {
         s.cell_class.at(row, col) = static_cast<std::uint8_t>(c);
-        s.surface_temperature_K.at(row, col) = T_K;
-        s.front_fraction.at(row, col) = c == CellClass::Front ? 0.5F : 0.0F;
+        s.surface_temperature_K.set(grid.index(row, col), T_K);
+        s.front_fraction.set(grid.index(row, col), c == CellClass::Front ? 0.5F : 0.0F);
     };
     for (int col = 10; col < 30; ++col) {
         set(10, col, CellClass::Front, 1073.0F);
@@ -44,7 +44,7 @@ TEST(IncidentMap, ShowsPerimeterFrontAndHeatMarkedSynthetic) {
     std::filesystem::create_directories(folder);
     const auto fire = state();
     Raster<float> flux(fire.cell_class.grid, "heat flux", "W m-2");
-    for (std::size_t i = 0; i < flux.values.size(); ++i) flux.values[i] = fire.front_fraction.values[i] > 0.0F ? 2e5F : 0.0F;
+    for (std::size_t i = 0; i < flux.values.size(); ++i) flux.values[i] = fire.front_fraction[i] > 0.0F ? 2e5F : 0.0F;
     write_text_file(folder / "fronts.csv", fronts_csv(find_fronts(fire, flux)));
     write_incident_map(folder, "", {"test_fire", "wasp", "2017-07-15T23:00:00Z", 400.0}, fire, folder / "fronts.csv");
 
