@@ -150,12 +150,12 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
     const bool rough = highest_m - lowest_m > kRough_m;
     if (scene.flame->empty() || settings.flames == GroundLightSettings::Flames::None) {
         light.row_of_cell.assign(light.grid.size(), -1);
-        if (rough) light.sky_view = std::make_shared<SkyView>(scene);
+        if (rough) light.sky_view = scene.terrain->sky_view();
         return light;
     }
     const LightScene shared(scene, settings);
     const std::vector<std::size_t> cells = receivers(shared, light);
-    if (rough) light.sky_view = std::make_shared<SkyView>(scene);
+    if (rough) light.sky_view = scene.terrain->sky_view();
     const std::size_t values = cells.size() * static_cast<std::size_t>(light.stride);
     light.irradiance_W_m2_um.resize(values);
     if (tables.has_sky) light.sky_irradiance_W_m2_um.resize(values);

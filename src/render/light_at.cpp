@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/terrain_sight.h"
+#include "render/sky_view.h"
 
 namespace pyroscene::render {
 

@@ -129,7 +129,7 @@ struct GroundIrradiance {
     std::vector<float> irradiance_W_m2_um;          ///< [row][lambda] by flames
     std::vector<float> sky_irradiance_W_m2_um;      ///< [row][lambda] diffuse sun; empty at night
     std::vector<float> thermal_irradiance_W_m2_um;  ///< [row][lambda] thermal sky and glowing slopes; empty if none
-    std::shared_ptr<const SkyView> sky_view;        ///< (terrain_sight.h) for cells without a row; null on a plane
+    std::shared_ptr<const SkyView> sky_view;        ///< (sky_view.h) for cells without a row; null on a plane
     LightSamplingError sampling_error;
 };
 

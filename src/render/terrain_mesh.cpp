@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "render/sky_view.h"
 
 namespace pyroscene::render {
 namespace {
@@ -32,11 +33,9 @@ double vertex_offset(int v, int n) { return v == 0 ? 0.0 : v == n + 1 ? static_c
 
 /// Heights with every hole filled from its already filled neighbours, so that the mesh is finite everywhere; what lies over
 /// a hole is dropped again when a ray hits it.
-std::vector<float> without_holes(const Raster<float>& height_m, bool& has_holes) {
+std::vector<float> without_holes(const Raster<float>& height_m) {
     std::vector<float> filled = height_m.values;
     const int rows = height_m.grid.rows, cols = height_m.grid.cols;
-    has_holes = std::any_of(filled.begin(), filled.end(), [](float h) { return !std::isfinite(h); });
-    if (!has_holes) return filled;
     if (std::none_of(filled.begin(), filled.end(), [](float h) { return std::isfinite(h); })) return filled;
 
     for (bool open = true; open;) {
@@ -73,9 +72,12 @@ struct TerrainMesh::Impl {
     Vec3 centre;                     ///< origin of the float32 frame, scene frame
     Vec3 lower, upper;               ///< scene box, scene frame
     double steepest = 0.0;
-    const float* vertices = nullptr;  ///< Embree's buffer, [row][col] of (rows + 2) x (cols + 2)
+    std::vector<float> z;    ///< of the vertices, from the centre: Embree's own lie too far apart for many looks
+    TerrainHeights heights;  ///< of these
+    std::shared_ptr<const SkyView> sky_view;
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    RTCGeometry geometry = nullptr;  ///< owned by the scene once it is committed
 
     ~Impl() {
         if (scene != nullptr) rtcReleaseScene(scene);
@@ -98,7 +100,8 @@ struct TerrainMesh::Impl {
     }
 
     void build(const Raster<float>& height_m, Vec3 scene_origin_m);
-    void add_geometry(const std::vector<float>& points);
+    float* begin_geometry();
+    void commit_geometry();
     bool clip(Vec3 start, Vec3 direction, double& near_m, double& far_m) const noexcept;
 };
 
@@ -107,68 +110,80 @@ void TerrainMesh::Impl::build(const Raster<float>& height_m, Vec3 scene_origin_m
     if (grid.cols < 1 || grid.rows < 1 || !(grid.cell_m > 0.0)) {
         throw input_error("terrain", "the raster has no cells; expected at least one");
     }
-    bool has_holes = false;
-    const std::vector<float> heights = without_holes(height_m, has_holes);
-    if (!std::isfinite(heights.front())) throw input_error("terrain", "no cell has a height; expected at least one");
+    const bool has_holes =
+        std::any_of(height_m.values.begin(), height_m.values.end(), [](float h) { return !std::isfinite(h); });
+    std::vector<float> filled;
+    if (has_holes) filled = without_holes(height_m);
+    const std::vector<float>& solid = has_holes ? filled : height_m.values;
+    if (!std::isfinite(solid.front())) throw input_error("terrain", "no cell has a height; expected at least one");
     if (has_holes) {
         hole.resize(grid.size());
         std::transform(height_m.values.begin(), height_m.values.end(), hole.begin(),
                        [](float h) { return static_cast<std::uint8_t>(!std::isfinite(h)); });
     }
 
-    const auto height_of = [&](const VertexSource& row, const VertexSource& col) {
-        const auto at = [&](int r, int c) { return static_cast<double>(heights[grid.index(r, c)]); };
-        return row.weight_cell * (col.weight_cell * at(row.cell, col.cell) + col.weight_inner * at(row.cell, col.inner)) +
-               row.weight_inner * (col.weight_cell * at(row.inner, col.cell) + col.weight_inner * at(row.inner, col.inner));
-    };
+    // Heights of one line of vertices after the other: all of them at once would outweigh the mesh.
     const int width = grid.cols + 2, height = grid.rows + 2;
-    std::vector<double> z(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    std::vector<double> line(static_cast<std::size_t>(width)), line_before(line.size());
+    const auto fill_line = [&](int r) {
+        const VertexSource row = vertex_source(r, grid.rows);
+        const auto at = [&](int cell_row, int col) { return static_cast<double>(solid[grid.index(cell_row, col)]); };
+        const auto along = [&](int cell_row, const VertexSource& col) {
+            return col.weight_cell * at(cell_row, col.cell) + col.weight_inner * at(cell_row, col.inner);
+        };
+        for (int c = 0; c < width; ++c) {
+            const VertexSource col = vertex_source(c, grid.cols);
+            line[static_cast<std::size_t>(c)] =
+                row.weight_cell * along(row.cell, col) + row.weight_inner * along(row.inner, col);
+        }
+    };
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (int r = 0; r < height; ++r) {
-        const VertexSource row = vertex_source(r, grid.rows);
-        for (int c = 0; c < width; ++c) {
-            const double h = height_of(row, vertex_source(c, grid.cols));
-            z[static_cast<std::size_t>(r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c)] = h;
-            lowest = std::min(lowest, h), highest = std::max(highest, h);
-        }
+        fill_line(r);
+        const auto [low, high] = std::minmax_element(line.begin(), line.end());
+        lowest = std::min(lowest, *low), highest = std::max(highest, *high);
     }
     lower = {grid.west_m - scene_origin_m.x, grid.south_m() - scene_origin_m.y, lowest};
     upper = {grid.east_m() - scene_origin_m.x, grid.north_m - scene_origin_m.y, highest};
     centre = 0.5 * (lower + upper);
 
-    std::vector<float> points;
-    points.reserve(z.size() * 3);
-    std::size_t i = 0;
+    float* point = begin_geometry();
+    const auto run_m = [&](int v, int last) { return (v == 1 || v == last ? 0.5 : 1.0) * grid.cell_m; };
     for (int r = 0; r < height; ++r) {
+        std::swap(line, line_before);
+        fill_line(r);
         const double y = upper.y - vertex_offset(r, grid.rows) * grid.cell_m;
-        for (int c = 0; c < width; ++c, ++i) {
+        for (int c = 0; c < width; ++c) {
+            const auto i = static_cast<std::size_t>(c);
             const double x = lower.x + vertex_offset(c, grid.cols) * grid.cell_m;
-            for (const double v : {x - centre.x, y - centre.y, z[i] - centre.z}) points.push_back(static_cast<float>(v));
-            const auto slope_to = [&](std::size_t other, double run_m) { return std::abs(z[i] - z[other]) / run_m; };
-            if (c > 0) steepest = std::max(steepest, slope_to(i - 1, (c == 1 || c == width - 1 ? 0.5 : 1.0) * grid.cell_m));
-            if (r > 0) {
-                const double run_m = (r == 1 || r == height - 1 ? 0.5 : 1.0) * grid.cell_m;
-                steepest = std::max(steepest, slope_to(i - static_cast<std::size_t>(width), run_m));
-            }
+            for (const double v : {x - centre.x, y - centre.y, line[i] - centre.z}) *point++ = static_cast<float>(v);
+            z.push_back(*(point - 1));
+            if (c > 0) steepest = std::max(steepest, std::abs(line[i] - line[i - 1]) / run_m(c, width - 1));
+            if (r > 0) steepest = std::max(steepest, std::abs(line[i] - line_before[i]) / run_m(r, height - 1));
         }
     }
     steepest *= std::sqrt(2.0);  // both edges of a facet may climb
-    add_geometry(points);
+    commit_geometry();
+    sky_view = std::make_shared<const SkyView>(heights);
 }
 
-void TerrainMesh::Impl::add_geometry(const std::vector<float>& points) {
+/// Starts Embree and returns the buffer for the vertices, [row][col] of x, y, z.
+float* TerrainMesh::Impl::begin_geometry() {
     device = rtcNewDevice(nullptr);
     if (device == nullptr) throw runtime_error("terrain", "Embree could not be started");
     scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
+    geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
+    const auto count = static_cast<std::size_t>(grid.cols + 2) * static_cast<std::size_t>(grid.rows + 2);
+    auto* buffer = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), count));
+    if (buffer == nullptr) throw runtime_error("terrain", "not enough memory for the terrain mesh");
+    z.reserve(count);
+    heights = {z.data(), grid.cols, grid.rows, grid.cell_m, lower, upper, centre.z};
+    return buffer;
+}
 
-    auto* vertex_buffer = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                      3 * sizeof(float), points.size() / 3));
-    if (vertex_buffer == nullptr) throw runtime_error("terrain", "not enough memory for the terrain mesh");
-    std::copy(points.begin(), points.end(), vertex_buffer);
-    vertices = vertex_buffer;
-
+void TerrainMesh::Impl::commit_geometry() {
     const int width = grid.cols + 2, height = grid.rows + 2;
     std::vector<RTCGrid> tiles;  // neighbours share their border vertices
     for (int r = 0; r < height - 1; r += kMaximumGridEdge - 1) {
@@ -267,24 +282,21 @@ bool TerrainMesh::occluded(Vec3 from_m, Vec3 direction, double distance_m) const
     return ray.tfar < 0.0F;
 }
 
-double TerrainMesh::height_at(double x_m, double y_m) const noexcept {
-    const MapGrid& grid = impl_->grid;
-    const double col = (x_m - impl_->lower.x) / grid.cell_m, row = (impl_->upper.y - y_m) / grid.cell_m;
-    if (!(col >= 0.0 && col <= grid.cols && row >= 0.0 && row <= grid.rows)) return std::numeric_limits<double>::quiet_NaN();
-    const int c = std::min(static_cast<int>(col + 0.5), grid.cols), r = std::min(static_cast<int>(row + 0.5), grid.rows);
-    const auto fraction = [](double at, int v, int n) {
+double TerrainHeights::at(double x_m, double y_m) const noexcept {
+    const double col = (x_m - lower_m.x) / cell_m, row = (upper_m.y - y_m) / cell_m;
+    if (!(col >= 0.0 && col <= cols && row >= 0.0 && row <= rows)) return std::numeric_limits<double>::quiet_NaN();
+    const int c = std::min(static_cast<int>(col + 0.5), cols), r = std::min(static_cast<int>(row + 0.5), rows);
+    const auto fraction = [](double place, int v, int n) {
         const double begin = vertex_offset(v, n);
-        return (at - begin) / (vertex_offset(v + 1, n) - begin);
+        return (place - begin) / (vertex_offset(v + 1, n) - begin);
     };
-    const double fx = fraction(col, c, grid.cols), fy = fraction(row, r, grid.rows);
-    const std::size_t width = static_cast<std::size_t>(grid.cols) + 2;
-    const auto z = [&](int dr, int dc) {
-        return static_cast<double>(
-            impl_->vertices[3 * (static_cast<std::size_t>(r + dr) * width + static_cast<std::size_t>(c + dc)) + 2]);
-    };
-    return impl_->centre.z + (1.0 - fy) * ((1.0 - fx) * z(0, 0) + fx * z(0, 1)) + fy * ((1.0 - fx) * z(1, 0) + fx * z(1, 1));
+    const double fx = fraction(col, c, cols), fy = fraction(row, r, rows);
+    const auto z = [&](int dr, int dc) { return static_cast<double>(*stored(r + dr - 1, c + dc - 1)); };
+    return zero_m + (1.0 - fy) * ((1.0 - fx) * z(0, 0) + fx * z(0, 1)) + fy * ((1.0 - fx) * z(1, 0) + fx * z(1, 1));
 }
 
+const TerrainHeights& TerrainMesh::heights() const noexcept { return impl_->heights; }
+std::shared_ptr<const SkyView> TerrainMesh::sky_view() const noexcept { return impl_->sky_view; }
 std::array<double, 2> TerrainMesh::height_range_m() const noexcept { return {impl_->lower.z, impl_->upper.z}; }
 double TerrainMesh::steepest_slope() const noexcept { return impl_->steepest; }
 const MapGrid& TerrainMesh::grid() const noexcept { return impl_->grid; }

@@ -6,8 +6,11 @@
 
 #include "base/raster.h"
 #include "base/vec3.h"
+#include "render/terrain_heights.h"
 
 namespace pyroscene::render {
+
+class SkyView;
 
 /// The ground as an Embree grid geometry (ROBUST) with a local origin. Vertices sit at cell centres, with an outer ring on
 /// the raster's rim, so the mesh covers the raster exactly. Cells without height are holes (exactly these cells:
@@ -29,7 +32,10 @@ public:
     [[nodiscard]] bool occluded(Vec3 from_m, Vec3 direction, double distance_m) const noexcept;
     /// Height of the vertices, bilinear in between (within a facet's bend of what `intersect` meets); also defined over
     /// holes; NaN outside the raster.
-    [[nodiscard]] double height_at(double x_m, double y_m) const noexcept;
+    [[nodiscard]] double height_at(double x_m, double y_m) const noexcept { return heights().at(x_m, y_m); }
+    [[nodiscard]] const TerrainHeights& heights() const noexcept;
+    /// Share of the sky that the cells see, for all cameras. Must not outlive this.
+    [[nodiscard]] std::shared_ptr<const SkyView> sky_view() const noexcept;
     /// {lowest, highest} height [m].
     [[nodiscard]] std::array<double, 2> height_range_m() const noexcept;
     /// Upper bound of the tangent of any facet's slope: a sun higher than this casts no terrain shadow.

@@ -17,11 +17,23 @@ Receiver receiver_at(const RenderScene& scene, std::size_t cell) {
     receiver.cell = cell;
     receiver.x_m = grid.x_centre_m(col) - scene.scene_origin_m.x;
     receiver.y_m = grid.y_centre_m(row) - scene.scene_origin_m.y;
-    const double half_m = 0.499 * grid.cell_m;
-    const auto height = [&](double dx, double dy) { return scene.terrain->height_at(receiver.x_m + dx, receiver.y_m + dy); };
-    receiver.normal = normalized(Vec3{(height(-half_m, 0.0) - height(half_m, 0.0)) / (2.0 * half_m),
-                                      (height(0.0, -half_m) - height(0.0, half_m)) / (2.0 * half_m), 1.0});
+    receiver.normal = cell_normal(scene.terrain->heights(), row, col);
     return receiver;
+}
+
+Vec3 cell_normal(const TerrainHeights& heights, int row, int col) noexcept {
+    if (row > 0 && row + 1 < heights.rows && col > 0 && col + 1 < heights.cols) {
+        const auto z = [&](int dr, int dc) { return static_cast<double>(*heights.stored(row + dr, col + dc)); };
+        return normalized(
+            Vec3{(z(0, -1) - z(0, 1)) / (2.0 * heights.cell_m), (z(1, 0) - z(-1, 0)) / (2.0 * heights.cell_m), 1.0});
+    }
+    const double half_m = 0.499 * heights.cell_m;
+    const double x_m = heights.lower_m.x + (col + 0.5) * heights.cell_m,
+                 y_m = heights.upper_m.y - (row + 0.5) * heights.cell_m;
+    const auto climb = [&](double dx, double dy) {
+        return (heights.at(x_m - dx, y_m - dy) - heights.at(x_m + dx, y_m + dy)) / (2.0 * half_m);
+    };
+    return normalized(Vec3{climb(half_m, 0.0), climb(0.0, half_m), 1.0});
 }
 
 double PlaneWeight::below(double slope) const noexcept {
@@ -31,31 +43,25 @@ double PlaneWeight::below(double slope) const noexcept {
     return along == 0.0 ? flat : flat + 0.5 * along * (std::atan(slope) + slope * cos2);
 }
 
+double PlaneWeight::hidden_by(double skyline) const noexcept {
+    const double lowest = lowest_slope(), cosine = 1.0 + skyline * lowest;  // of the angle between, times something above 0
+    if (!(skyline > lowest)) return 0.0;
+    if (!(cosine > 0.0)) return below(skyline) - below(lowest);
+    const double high_cos2 = 1.0 / (1.0 + skyline * skyline), low_cos2 = 1.0 / (1.0 + lowest * lowest);
+    const double between_rad = std::atan((skyline - lowest) / cosine);
+    return 0.5 * (up * (skyline * skyline * high_cos2 - lowest * lowest * low_cos2) +
+                  along * (between_rad + skyline * high_cos2 - lowest * low_cos2));
+}
+
 double skyline_slope(const TerrainMesh& terrain, Vec3 from_m, double dx, double dy) noexcept {
     const double cell_m = terrain.grid().cell_m, highest_m = terrain.height_range_m()[1];
     double slope = -std::numeric_limits<double>::infinity();
-    for (double r = cell_m;; r += std::max(cell_m, 0.1 * r)) {
+    for (double r = cell_m;; r = next_look_m(r, cell_m)) {
         if ((highest_m - from_m.z) / r <= slope) return slope;  // nothing farther away can stand higher
         const double h = terrain.height_at(from_m.x + r * dx, from_m.y + r * dy);
         if (!(h > -1e9)) return slope;  // left the raster
         slope = std::max(slope, (h - from_m.z) / r);
     }
-}
-
-SkyView::SkyView(const RenderScene& scene) : known_(std::make_unique<std::atomic<float>[]>(scene.terrain->grid().size())) {
-    terrain_.terrain = scene.terrain;
-    terrain_.scene_origin_m = scene.scene_origin_m;
-}
-
-double SkyView::at(std::size_t cell) const noexcept {
-    // Threads that ask at the same time find the same.
-    float known = known_[cell].load(std::memory_order_relaxed);
-    if (known == 0.0F) {
-        const double hidden_sr = hidden_by_terrain(*terrain_.terrain, receiver_at(terrain_, cell), 1, [](Vec3, double) {});
-        known = 1.0F + static_cast<float>(std::clamp(1.0 - hidden_sr / kPi, 0.0, 1.0));
-        known_[cell].store(known, std::memory_order_relaxed);
-    }
-    return static_cast<double>(known - 1.0F);
 }
 
 void reflect_between_slopes(const SceneTables& tables, const std::vector<std::vector<TerrainPatch>>& patches,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -21,12 +20,17 @@ struct Receiver {
 };
 Receiver receiver_at(const RenderScene& scene, std::size_t cell);
 
+/// Normal of a cell's mean slope.
+Vec3 cell_normal(const TerrainHeights& heights, int row, int col) noexcept;
+
 /// Weight of the elevations below a line of sight, in one vertical plane per radian of azimuth:
 ///   F(t) = int (n . omega) cos(e) de up to e = atan t  =  n_h (e + sin e cos e) / 2 + n_z sin^2(e) / 2
 /// with n_h the component of the receiver's normal along the plane.
 struct PlaneWeight {
     double along = 0.0, up = 1.0;
     [[nodiscard]] double below(double slope) const noexcept;
+    /// Of the elevations between the own surface and a skyline; 0 where the skyline is lower.
+    [[nodiscard]] double hidden_by(double skyline) const noexcept;
     /// Slope of the receiver's own surface: nothing below it is seen.
     [[nodiscard]] double lowest_slope() const noexcept { return -along / up; }
 };
@@ -34,6 +38,9 @@ struct PlaneWeight {
 /// Slope of the terrain's skyline from a point into a horizontal direction, scanned to the rim of the raster in steps of a
 /// cell that grow to a tenth of the distance.
 double skyline_slope(const TerrainMesh& terrain, Vec3 from_m, double dx, double dy) noexcept;
+inline double next_look_m(double distance_m, double cell_m) noexcept {
+    return distance_m + std::max(cell_m, 0.1 * distance_m);
+}
 
 /// Vertical planes in which a receiver looks for terrain that hides the sky.
 inline constexpr int kSkylinePlanes = 16;
@@ -67,19 +74,6 @@ double hidden_by_terrain(const TerrainMesh& terrain, const Receiver& receiver, i
     }
     return sum_sr;
 }
-
-/// Share of its cosine-weighted hemisphere in which a map cell sees the sky, 0 to 1; exact in elevation. Found when a cell is
-/// first asked for, because an image sees few cells of a large map. For several threads at once.
-class SkyView {
-public:
-    /// The terrain must outlive this.
-    explicit SkyView(const RenderScene& scene);
-    [[nodiscard]] double at(std::size_t cell) const noexcept;
-
-private:
-    RenderScene terrain_;                          ///< nothing but
-    std::unique_ptr<std::atomic<float>[]> known_;  ///< [map cell] 1 + share; 0 = not asked for yet
-};
 
 /// Terrain that a receiver sees in one of its directions.
 struct TerrainPatch {

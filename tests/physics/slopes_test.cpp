@@ -8,6 +8,7 @@
 #include "physics/test_scene.h"
 #include "radiometry/planck.h"
 #include "render/scene_tables.h"
+#include "render/sky_view.h"
 #include "render/terrain_sight.h"
 
 namespace pyroscene::test {
@@ -45,6 +46,23 @@ TEST(Slopes, SkyViewInAValley) {
                 << slope_deg << " degrees, column " << col;
         }
     }
+}
+
+// Cells are looked at in runs along a row; each sees what it sees from itself alone, at the rim of the map too.
+TEST(Slopes, SkyViewIsThatOfEachCellByItself) {
+    TestScene scene({.cols = 75, .rows = 50, .cell_m = 30.0});
+    scene.set_heights([](double x, double y) {
+        return 1200.0 + 90.0 * std::sin(x / 170.0) * std::cos(y / 230.0) + 25.0 * std::sin(x / 31.0 + y / 47.0);
+    });
+    const auto sky = render::ground_irradiance(scene.scene(), {}).sky_view;
+    double least = 1.0;
+    for (std::size_t cell = 0; cell < scene.heights.grid.size(); ++cell) {
+        const double hidden_sr = render::hidden_by_terrain(*scene.scene().terrain, render::receiver_at(scene.scene(), cell),
+                                                           1, [](Vec3, double) {});
+        EXPECT_NEAR(sky->at(cell), 1.0 - hidden_sr / kPi, 5e-5) << cell;
+        least = std::min(least, sky->at(cell));
+    }
+    EXPECT_LT(least, 0.95);
 }
 
 TEST(Slopes, PlaneGroundSeesTheWholeSky) {
