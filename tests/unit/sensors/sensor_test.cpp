@@ -150,18 +150,20 @@ TEST(Sensor, GainsAndCountsAreThoseOfTheFiles) {
     ASSERT_TRUE(mir.sensitive_range.has_value());
     EXPECT_NEAR(radiometry::band_brightness_temperature(mir.sensitive_range->maximum_W_m2_sr_um, mir.response), 350.0, 0.01);
     EXPECT_NEAR(noise_radiance(mir, 100.0) / noise_radiance(mir, 1.0), 20.0, 1e-9);
-    // AVHRR/3: half of 1024 counts below an albedo of 25 %, so that a count is 0.049 % there and 0.146 % above.
+    // AVHRR/3: half of 1024 counts below an albedo of 25 % (12.5 % in channel 3A), the other half from there to 100 %.
     const Sensor avhrr = load_sensor("avhrr3-noaa18");
-    const Band& red = avhrr.bands.front();
-    const double sunlit = sunlit_radiance(1.0, red.response);
-    std::vector<float> L;
-    for (const double albedo : {0.0997, 0.6017}) L.push_back(static_cast<float>(albedo * sunlit));
-    std::vector<std::uint8_t> flags(L.size());
-    Band quiet = red;
-    quiet.noise = quiet.sensitive_range->noise = {};
-    apply_detector(quiet, {}, L, flags);
-    EXPECT_NEAR(L[0] / sunlit, std::round(0.0997 * 2048.0) / 2048.0, 1e-6);
-    EXPECT_NEAR(L[1] / sunlit, 0.25 + 0.75 * std::round((0.6017 - 0.25) / 0.75 * 512.0) / 512.0, 1e-6);
+    for (const auto& [id, knee] : {std::pair{"1", 0.25}, {"2", 0.25}, {"3A", 0.125}}) {
+        SCOPED_TRACE(id);
+        Band quiet = avhrr.bands[static_cast<std::size_t>(avhrr.band_index(id))];
+        ASSERT_TRUE(quiet.sensitive_range.has_value());
+        const double sunlit = sunlit_radiance(1.0, quiet.response);
+        std::vector<float> L{static_cast<float>(0.0997 * sunlit), static_cast<float>(0.6017 * sunlit)};
+        std::vector<std::uint8_t> flags(L.size());
+        quiet.noise = quiet.sensitive_range->noise = {};
+        apply_detector(quiet, {}, L, flags);
+        EXPECT_NEAR(L[0] / sunlit, std::round(0.0997 / knee * 512.0) / 512.0 * knee, 1e-6);
+        EXPECT_NEAR(L[1] / sunlit, knee + (1.0 - knee) * std::round((0.6017 - knee) / (1.0 - knee) * 512.0) / 512.0, 1e-6);
+    }
     const Sensor ols = load_sensor("dmsp-ols");
     EXPECT_EQ(ols.bands.front().bits, 6);
     EXPECT_EQ(ols.bands[static_cast<std::size_t>(ols.band_index("TIR"))].bits, 8);
