@@ -35,6 +35,14 @@ struct ImageStream::Impl {
     DatasetPtr dataset;
     ImageInfo info;
     std::vector<Conversion> conversion;
+
+    void read_window(int band, int col, int row, int cols, int rows, std::span<float> out) {
+        const GdalErrors errors;
+        if (dataset->GetRasterBand(band)->RasterIO(GF_Read, col, row, cols, rows, out.data(), cols, rows, GDT_Float32, 0, 0,
+                                                   nullptr) != CE_None)
+            throw input_error(path.string(), fmt::format("band {} cannot be read: {}", band, errors.message()));
+        conversion[static_cast<std::size_t>(band) - 1].apply(out);
+    }
 };
 
 ImageStream::ImageStream(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
@@ -81,14 +89,15 @@ void ImageStream::read(int first, int count, std::span<float> out) {
 }
 
 std::vector<float> ImageStream::read_band(int band) {
-    Impl& s = *impl_;
-    std::vector<float> out(static_cast<std::size_t>(s.info.cols) * static_cast<std::size_t>(s.info.rows));
-    const GdalErrors errors;
-    if (s.dataset->GetRasterBand(band)->RasterIO(GF_Read, 0, 0, s.info.cols, s.info.rows, out.data(), s.info.cols,
-                                                 s.info.rows, GDT_Float32, 0, 0, nullptr) != CE_None)
-        throw input_error(s.path.string(), fmt::format("band {} cannot be read: {}", band, errors.message()));
-    s.conversion[static_cast<std::size_t>(band) - 1].apply(out);
+    std::vector<float> out(static_cast<std::size_t>(impl_->info.cols) * static_cast<std::size_t>(impl_->info.rows));
+    impl_->read_window(band, 0, 0, impl_->info.cols, impl_->info.rows, out);
     return out;
+}
+
+float ImageStream::read_value(int band, int sample, int line) {
+    float value = 0.0F;
+    impl_->read_window(band, sample, line, 1, 1, {&value, 1});
+    return value;
 }
 
 }  // namespace pyroscene::gis

@@ -36,6 +36,8 @@ public:
     void read(int first, int count, std::span<float> out);
     /// One band as a whole, [line][sample]. \param band  from 1
     [[nodiscard]] std::vector<float> read_band(int band);
+    /// One value; reads no more of the file than the block it is in. \param band  from 1
+    [[nodiscard]] float read_value(int band, int sample, int line);
 
 private:
     struct Impl;

@@ -26,33 +26,38 @@ std::map<std::string, std::string> default_metadata(GDALMajorObject& object) {
 
 template <class T>
 void StatisticsSum::add(std::span<const T> pixels) noexcept {
-    StatisticsSum s = *this;  // in registers
-    s.pixels_ += pixels.size();
-    for (const T pixel : pixels) {
-        if (std::isnan(pixel)) continue;
-        const auto value = static_cast<double>(pixel);
-        if (s.valid_ == 0) s.first_ = s.minimum_ = s.maximum_ = value;
-        ++s.valid_;
-        s.minimum_ = std::min(s.minimum_, value);
-        s.maximum_ = std::max(s.maximum_, value);
-        const double d = value - s.first_;
-        s.sum_ += d;
-        s.sum_of_squares_ += d * d;
-    }
-    *this = s;
+    std::size_t i = 0;
+    const auto one = [&] { lanes_[pixels_++ % lanes_.size()].add(static_cast<double>(pixels[i++]), first_); };
+    for (; std::isnan(first_) && i < pixels.size(); one()) first_ = static_cast<double>(pixels[i]);
+    while (pixels_ % lanes_.size() != 0 && i < pixels.size()) one();
+    auto lanes = lanes_;  // in registers
+    const std::size_t begin = i;
+    for (; i + lanes.size() <= pixels.size(); i += lanes.size())
+        for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k].add(static_cast<double>(pixels[i + k]), first_);
+    lanes_ = lanes;
+    pixels_ += i - begin;
+    while (i < pixels.size()) one();
 }
 template void StatisticsSum::add(std::span<const float>) noexcept;
 template void StatisticsSum::add(std::span<const double>) noexcept;
 
 BandStatistics StatisticsSum::statistics() const noexcept {
+    Lane all;
+    for (const Lane& lane : lanes_) {
+        all.minimum = std::min(all.minimum, lane.minimum);
+        all.maximum = std::max(all.maximum, lane.maximum);
+        all.sum += lane.sum;
+        all.sum_of_squares += lane.sum_of_squares;
+        all.valid += lane.valid;
+    }
     BandStatistics s;
-    s.any = valid_ > 0;
+    s.any = all.valid > 0;
     if (!s.any) return s;
-    const auto n = static_cast<double>(valid_);
-    s.minimum = minimum_;
-    s.maximum = maximum_;
-    s.mean = first_ + sum_ / n;
-    s.standard_deviation = std::sqrt(std::max(0.0, sum_of_squares_ / n - (sum_ / n) * (sum_ / n)));
+    const auto n = static_cast<double>(all.valid);
+    s.minimum = all.minimum;
+    s.maximum = all.maximum;
+    s.mean = first_ + all.sum / n;
+    s.standard_deviation = std::sqrt(std::max(0.0, all.sum_of_squares / n - (all.sum / n) * (all.sum / n)));
     s.valid_percent = 100.0 * n / static_cast<double>(pixels_);
     return s;
 }

@@ -196,10 +196,8 @@ ImageDigest digest_image(const AcquisitionFiles& files) {
         return static_cast<std::size_t>(p.line) * static_cast<std::size_t>(digest.samples) +
                static_cast<std::size_t>(p.sample);
     };
-    for (int b = 1; b <= bands; ++b) {
-        const auto plane = radiance.read_band(b);
-        for (auto& p : digest.picked) p.radiance_W_m2_sr_um.push_back(plane[at(p)]);
-    }
+    for (auto& p : digest.picked)
+        for (int b = 1; b <= bands; ++b) p.radiance_W_m2_sr_um.push_back(radiance.read_value(b, p.sample, p.line));
     if (truth) {
         gis::ImageStream stream(files.truth());
         const auto& planes = stream.info().bands;
@@ -208,8 +206,8 @@ ImageDigest digest_image(const AcquisitionFiles& files) {
             if (id == digest.bands[b].metadata.end()) continue;
             for (std::size_t k = 0; k < planes.size(); ++k) {
                 if (planes[k].description != id->second + " radiance_noise_free") continue;
-                const auto plane = stream.read_band(static_cast<int>(k) + 1);
-                for (auto& p : digest.picked) p.arriving_W_m2_sr_um[b] = plane[at(p)];
+                for (auto& p : digest.picked)
+                    p.arriving_W_m2_sr_um[b] = stream.read_value(static_cast<int>(k) + 1, p.sample, p.line);
             }
         }
     }

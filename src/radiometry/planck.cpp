@@ -99,13 +99,14 @@ double band_mean_radiance(double T_K, const Spectrum& response) {
     return integrate_band(T_K, response).radiance / response_area_um(response);
 }
 
-double band_brightness_temperature(double radiance_mean, const Spectrum& response) {
+double band_brightness_temperature(double radiance_mean, const Spectrum& response, double near_K) {
     check_response(response, "band response");
     if (!(radiance_mean > 0.0)) return kNaN;
     // ln(band mean) is a convex, falling function of u = 1/T (a sum of log-convex functions is log-convex), so Newton's
     // method in u converges from every start; only a step to u <= 0 has to be shortened.
     const double target = std::log(radiance_mean * response_area_um(response));
-    double u = 1.0 / brightness_temperature(0.5 * (response.lambda_um.front() + response.lambda_um.back()), radiance_mean);
+    const double middle_um = 0.5 * (response.lambda_um.front() + response.lambda_um.back());
+    double u = 1.0 / (near_K > 0.0 ? near_K : brightness_temperature(middle_um, radiance_mean));
     for (int iteration = 0; iteration < 100; ++iteration) {
         const double T_K = 1.0 / u;
         const auto band = integrate_band(T_K, response);
@@ -117,7 +118,7 @@ double band_brightness_temperature(double radiance_mean, const Spectrum& respons
         const double next = u - (std::log(band.radiance) - target) / slope;
         const double change = next - u;
         u = next > 0.0 ? next : 0.5 * u;
-        if (std::abs(change) < 1e-13 * u) break;
+        if (std::abs(change) < 1e-7 * u) break;  // what is left is of the order of its square
     }
     return 1.0 / u;
 }

@@ -33,8 +33,9 @@ double band_radiance(double T_K, double lower_um, double upper_um);
 double band_mean_radiance(double T_K, const Spectrum& response);
 
 /// Temperature whose band_mean_radiance is `radiance_mean`; residual below 1e-9 K for 150 to 3000 K.
+/// \param near_K  where to begin to search; 0 = by itself
 /// \return [K]; NaN for a radiance that is NaN, zero or negative
-double band_brightness_temperature(double radiance_mean, const Spectrum& response);
+double band_brightness_temperature(double radiance_mean, const Spectrum& response, double near_K = 0.0);
 
 /// band_brightness_temperature for whole images: the difference between the band temperature and the brightness
 /// temperature at one wavelength of the band is tabulated (cubic Hermite in ln T), so a call costs one logarithm.

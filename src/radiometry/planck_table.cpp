@@ -32,7 +32,10 @@ BandThermometer::BandThermometer(Spectrum response) : response_(std::move(respon
     step_ = (last - first_) / (kThermometerNodes - 1);
     for (int i = 0; i < kThermometerNodes; ++i) {
         const double T_mono = std::exp(first_ + i * step_);
-        band_ratio_.push_back(band_brightness_temperature(planck_radiance(lambda_um_, T_mono), response_) / T_mono);
+        const auto before = [&](int k) { return band_ratio_[static_cast<std::size_t>(i - k)]; };
+        const double near = i > 1 ? 2.0 * before(1) - before(2) : 1.0;
+        band_ratio_.push_back(band_brightness_temperature(planck_radiance(lambda_um_, T_mono), response_, near * T_mono) /
+                              T_mono);
     }
     // Four-point differences: the Hermite curve through them keeps the fourth order of the nodes.
     const int n = kThermometerNodes;
