@@ -34,6 +34,39 @@ std::string noise_text(const sensors::Band& band) {
     return "-";
 }
 
+/// Where a detector ends and how it counts, as far as the file says.
+std::string range_text(const sensors::Band& band) {
+    if (!band.saturation_radiance_W_m2_sr_um) return "-";
+    std::string text = fmt::format("{:.5g}", *band.saturation_radiance_W_m2_sr_um);
+    if (band.bits) text += fmt::format(", {} bits", *band.bits);
+    if (band.sensitive_range) text += fmt::format(", finer up to {:.5g}", band.sensitive_range->maximum_W_m2_sr_um);
+    if (band.fold_over) text += fmt::format(", folds over beyond {:g} times", *band.fold_over);
+    return text;
+}
+
+/// Pixels and angles of a camera group.
+std::string group_text(const sensors::CameraGroup& g) {
+    using Kind = sensors::ScanLaw::Kind;
+    const sensors::ScanLaw& scan = g.scan;
+    std::string text = fmt::format("  group {}: ", g.id);
+    if (scan.kind == Kind::Frame)
+        text += fmt::format("{} x {} pixels", g.samples, g.lines);
+    else if (scan.kind == Kind::Disk)
+        text += fmt::format("disk of {} samples", scan.samples());
+    else
+        text += fmt::format("{} samples a line, {} line{} a scan", scan.samples(), scan.lines_per_scan,
+                            scan.lines_per_scan == 1 ? "" : "s");
+    if (scan.period_s > 0.0) text += fmt::format(", a scan every {:.6g} s", scan.period_s);
+    if (g.focal_length_m > 0.0)
+        text += fmt::format(", focal length {:g} mm, pitch {:g} um, IFOV {:.4g} mrad", 1e3 * g.focal_length_m,
+                            1e6 * g.pixel_pitch_m, 1e3 * g.pixel_pitch_m / g.focal_length_m);
+    else if (scan.step_across_rad > 0.0)
+        text += fmt::format(", step {:.4g} mrad across", 1e3 * scan.step_across_rad);
+    if (scan.step_along_rad > 0.0) text += fmt::format(", {:.4g} mrad along", 1e3 * scan.step_along_rad);
+    if (!g.views.empty()) text += fmt::format(", {} views", g.views.size());
+    return text + "\n";
+}
+
 void list_sensors(bool json) {
     std::string out;
     for (const auto& id : sensors::sensor_ids()) {
@@ -55,20 +88,17 @@ void show_sensor(const std::string& id_or_path, bool json) {
     }
     std::string out = fmt::format("{}: {}\n  file {}\n  {} on {}", s.id, s.name, s.source_path,
                                   pipeline::scan_type_name(s.scan), s.platform_name.empty() ? "-" : s.platform_name);
-    out += s.airborne ? fmt::format(", {:g} m above ground\n", s.altitude_agl_m) : std::string("\n");
-    for (const auto& g : s.groups) {
-        if (!(g.focal_length_m > 0.0)) continue;
-        out += fmt::format("  group {}: {} x {} pixels, focal length {:g} mm, pitch {:g} um, IFOV {:.4g} mrad\n", g.id,
-                           g.samples, g.lines, 1e3 * g.focal_length_m, 1e6 * g.pixel_pitch_m,
-                           1e3 * g.pixel_pitch_m / g.focal_length_m);
-    }
+    if (s.airborne)
+        out += fmt::format(", {:g} m above ground", s.altitude_agl_m);
+    else if (s.orbit)
+        out += fmt::format(", orbit at {:.6g} km", 1e-3 * s.orbit->height_m);
+    out += "\n";
+    for (const auto& g : s.groups) out += group_text(g);
     out += fmt::format("  {:<10} {:<8} {:>10} {:>9}  {:<9} {:<24} {}\n", "band", "group", "centre um", "FWHM um", "response",
-                       "noise", "saturation W m-2 sr-1 um-1");
+                       "noise", "saturation W m-2 sr-1 um-1, counts");
     for (const auto& b : s.bands)
-        out +=
-            fmt::format("  {:<10} {:<8} {:>10.4f} {:>9.4f}  {:<9} {:<24} {}\n", b.id, b.group, b.centre_um, b.fwhm_um,
-                        b.measured_response ? "measured" : "nominal", noise_text(b),
-                        b.saturation_radiance_W_m2_sr_um ? fmt::format("{:.5g}", *b.saturation_radiance_W_m2_sr_um) : "-");
+        out += fmt::format("  {:<10} {:<8} {:>10.4f} {:>9.4f}  {:<9} {:<24} {}\n", b.id, b.group, b.centre_um, b.fwhm_um,
+                           b.measured_response ? "measured" : "nominal", noise_text(b), range_text(b));
     if (!s.confidence.empty())
         out +=
             "  confidence of the numbers (A read at the source, B secondary, L literature, C computed, E assumed, D "

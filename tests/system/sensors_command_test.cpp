@@ -64,6 +64,18 @@ TEST(SensorsCommand, OutlinesHoldTheirPixels) {
     }
 }
 
+TEST(SensorsCommand, TellsPixelsAnglesAndCounts) {
+    const auto holds = [](const std::string& id, const char* text) {
+        const auto output = pyroscene_cli("sensors " + id).output;
+        EXPECT_NE(output.find(text), std::string::npos) << text << " not in\n" << output;
+    };
+    holds("avhrr3-noaa18", "group lac: 2048 samples a line, 1 line a scan, a scan every 0.166667 s, step 0.944 mrad across");
+    holds("avhrr3-noaa18", ", 10 bits, finer up to ");
+    holds("modis-terra", "group 1km: 1354 samples a line, 10 lines a scan");
+    holds("wasp", "group ir: 640 x 512 pixels, focal length 25 mm, pitch 25 um, IFOV 1 mrad");
+    holds("viirs-snpp", "folds over beyond ");
+}
+
 TEST(SensorsCommand, DrawsResponses) {
     const ScratchFolder scratch;
     const auto file = scratch / "responses.png";
