@@ -15,6 +15,8 @@ struct MixtureGas {
 /// A homogeneous piece of flame on a ray, of soot, atoms (Beer's law) and gases (narrow-band model); eq 4.10 voxel by voxel with
 /// transmittances from the ray's running sums.
 struct MixturePiece {
+    static constexpr float kLeastSeen = 1e-6F;  ///< blocks of eight wavelengths that let less through are left as they are
+
     int n = 0;              ///< wavelengths, a multiple of the kernels' lanes
     float length_m = 0.0F;  ///< times filled fraction
     int row = 0, next = 0;  ///< of the tables, blended
@@ -31,7 +33,8 @@ struct MixturePiece {
     float* depth = nullptr;  ///< total so far
     float* ahead = nullptr;  ///< scratch
     float* tau = nullptr;
-    float* flame = nullptr;  ///< += scale (tau before - tau after) B
+    unsigned char* opaque = nullptr;  ///< [n / 8] 1: see kLeastSeen; zero at the start
+    float* flame = nullptr;           ///< += scale (tau before - tau after) B
 };
 
 }  // namespace pyroscene::render

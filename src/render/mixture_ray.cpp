@@ -11,7 +11,8 @@ MixtureRay::MixtureRay(const radiometry::FlameTable& table)
       continuum_depth_(static_cast<std::size_t>(table.stride)),
       depth_(continuum_depth_.size()),
       ahead_(continuum_depth_.size()),
-      tau_(continuum_depth_.size(), 1.0F) {
+      tau_(continuum_depth_.size(), 1.0F),
+      opaque_(continuum_depth_.size() / SpectralKernels::kLanes) {
     std::size_t size = 0;
     for (const auto& gas : table.gases) size += static_cast<std::size_t>(gas.row_stride());
     sums_.resize(size);
@@ -28,6 +29,7 @@ void MixtureRay::begin() {
     std::fill(continuum_depth_.begin(), continuum_depth_.end(), 0.0F);
     std::fill(depth_.begin(), depth_.end(), 0.0F);
     std::fill(tau_.begin(), tau_.end(), 1.0F);
+    std::fill(opaque_.begin(), opaque_.end(), static_cast<unsigned char>(0));
 }
 
 void MixtureRay::add(double T_K, double fill_length_m, const PlanckRows& planck, float scale, float* flame) {
@@ -51,6 +53,7 @@ void MixtureRay::add(double T_K, double fill_length_m, const PlanckRows& planck,
     piece.depth = depth_.data();
     piece.ahead = ahead_.data();
     piece.tau = tau_.data();
+    piece.opaque = opaque_.data();
     piece.flame = flame;
     kernels_->emit_mixture(piece);
 }

@@ -32,6 +32,7 @@ private:
     const radiometry::FlameTable* table_;
     const SpectralKernels* kernels_;
     std::vector<float> sums_, continuum_depth_, depth_, ahead_, tau_;
+    std::vector<unsigned char> opaque_;
     std::vector<MixtureGas> gases_;
 };
 

@@ -77,6 +77,60 @@ TEST(MixtureRay, IsothermalPathEmitsWhatItAbsorbs) {
     }
 }
 
+// The curve of growth in floats against its closed form, for lines of any overlap, up to twice as wide by motion as by collisions.
+TEST(MixtureRay, CurveOfGrowthIsThatOfTheBandModel) {
+    constexpr int n = 8;
+    for (const double a_lorentz : {0.003, 0.1, 1.0, 30.0}) {
+        for (const double width_ratio : {0.01, 0.3, 1.0, 2.0}) {
+            const int first = 0;
+            const float per_m = 0.5F, one = 1.0F;
+            std::vector<float> rows, nothing(n, 0.0F), sums(3 * n, 0.0F), state(5 * n, 0.0F);
+            for (const double factor : {1.0, a_lorentz, a_lorentz * width_ratio})
+                rows.insert(rows.end(), n, per_m * static_cast<float>(factor));
+            MixtureGas gas{false, 1, &first, rows.data(), 3 * n, sums.data()};
+            unsigned char opaque = 0;
+            MixturePiece piece;
+            piece.n = n;
+            piece.continuum = piece.planck = nothing.data();
+            piece.planck_weight = &one;
+            piece.gases = &gas;
+            piece.gas_count = 1;
+            piece.continuum_depth = state.data();
+            piece.depth = state.data() + n;
+            piece.ahead = state.data() + 2 * n;
+            piece.tau = state.data() + 3 * n;
+            piece.flame = state.data() + 4 * n;
+            piece.opaque = &opaque;
+            for (double x = 1e-6; x < 1e4; x *= 1.7) {
+                std::fill(sums.begin(), sums.end(), 0.0F);
+                piece.length_m = static_cast<float>(x / 0.5);
+                opaque = 0;
+                spectral_kernels().emit_mixture(piece);
+                radiometry::GasColumn column;
+                column.add({1.0, a_lorentz, a_lorentz * width_ratio}, x);
+                const double expected = radiometry::gas_optical_depth(radiometry::GasSpecies::H2O, column);
+                EXPECT_NEAR(piece.depth[0] / expected, 1.0, width_ratio > 1.0 ? 2e-4 : 1e-4) << x << ' ' << a_lorentz;
+            }
+        }
+    }
+}
+
+// Pieces behind what lets less than a millionth through change nothing.
+TEST(MixtureRay, OpaqueFlameHidesWhatIsBehindIt) {
+    const Pieces thick{{60.0, 1100.0}, {60.0, 1000.0}};
+    Pieces more = thick;
+    more.insert(more.end(), 3, {100.0, 1500.0});
+    const Result front = march(thick, {}, 900.0, 1500.0), all = march(more, {}, 900.0, 1500.0);
+    int hidden = 0;
+    for (std::size_t l = 0; l < kLambda_um.size(); ++l) {
+        if (front.tau[l] > 1e-7F) continue;
+        ++hidden;
+        const double change = radiometry::planck_radiance(kLambda_um[l], 1500.0) * 1.1e-6;
+        EXPECT_NEAR(all.flame[l], front.flame[l], change + 1e-6 * front.flame[l]) << kLambda_um[l];
+    }
+    EXPECT_GT(hidden, 4);
+}
+
 TEST(MixtureRay, PortableKernelAgreesWithTheChosenOne) {
     const int stride = 8;
     const std::vector<double> lambda_um{2.7, 4.3, 4.67, 10.6};
@@ -91,6 +145,7 @@ TEST(MixtureRay, PortableKernelAgreesWithTheChosenOne) {
         flame[version].assign(stride, 0.0F);
         tau[version].assign(stride, 1.0F);
         const float one = 1.0F;
+        unsigned char opaque = 0;
         MixturePiece piece;
         piece.n = stride;
         piece.continuum = table.continuum_per_m.data();
@@ -102,6 +157,7 @@ TEST(MixtureRay, PortableKernelAgreesWithTheChosenOne) {
         piece.depth = state.data() + stride;
         piece.ahead = state.data() + 2 * stride;
         piece.tau = tau[version].data();
+        piece.opaque = &opaque;
         piece.flame = flame[version].data();
         for (const float length_m : {0.2F, 1.3F}) {
             piece.length_m = length_m;
