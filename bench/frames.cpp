@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -40,6 +41,7 @@ struct Frame {
     bool light = false;
     W0Scene::Options scene{};
     W0Camera camera{};
+    int lines_at_once = 0;  ///< 0: the whole image
 };
 
 enum Result { kMean, kSetup_s, kLight_s, kRender_s, kInput_MB, kOutput_MB };
@@ -54,17 +56,23 @@ std::vector<double> render_frame(Frame frame) {
     render::GroundIrradiance light;
     if (frame.light) light = render::ground_irradiance(scene.scene(), {.directions = 64, .reach_m = 3000.0});
     const double lit = cpu_s();
-    const auto image = render::render_image(scene.scene(), frame.light ? &light : nullptr, frame.camera.request());
+    const render::RenderScene to_render = scene.scene();
+    const render::ImageRequest request = frame.camera.request();
+    const Monitor monitor;
+    render::ImageRenderer renderer(to_render, frame.light ? &light : nullptr, request, monitor);
+    render::RadianceImage image;
+    const int lines_at_once = frame.lines_at_once > 0 ? frame.lines_at_once : request.lines;
+    double mean = 0.0;
+    for (int first = 0; first < request.lines; first += lines_at_once) {
+        renderer.render(first, std::min(lines_at_once, request.lines - first), image);
+        mean += mean_radiance(image, scene.lambda_um(), 4.0) * image.lines / request.lines;
+    }
     const double done = cpu_s();
     const double input_MB = static_cast<double>(scene.flame().bricks.size() * sizeof(fire::FlameField::Brick) +
                                                 light.irradiance_W_m2_um.size() * sizeof(float)) /
                             1048576.0;
-    return {mean_radiance(image, scene.lambda_um(), 4.0),
-            ready - start,
-            lit - ready,
-            done - lit,
-            input_MB,
-            static_cast<double>(image.radiance_W_m2_sr_um.size() * sizeof(float)) / 1048576.0};
+    return {mean,       ready - start, lit - ready,
+            done - lit, input_MB,      static_cast<double>(image.radiance_W_m2_sr_um.size() * sizeof(float)) / 1048576.0};
 }
 
 std::vector<double> baseline_frame(int bands, bool light) {
@@ -110,6 +118,17 @@ void frames_against_baseline(int pairs, std::string_view only) {
             if (light) {
                 row(name + ", ground light", fmt::format("{:.3f} s CPU", p.first.results[kLight_s]), "", "", "",
                     fmt::format("{:.1f} us per receiver", 1e6 * p.first.results[kLight_s] / 19600.0));
+            }
+            if (!light && bands == 224) {
+                Frame in_pieces{bands, light, {}, {}};
+                in_pieces.lines_at_once = 16;
+                const Pair piecewise = measure_alternately([&] { return render_frame(in_pieces); },
+                                                           [&] { return baseline_frame(bands, light); }, pairs);
+                row(name + ", 16 lines at a time as a run renders them",
+                    fmt::format("{:.3f} s CPU, {:.0f} MB", piecewise.first.cpu_s, piecewise.first.peak_MB),
+                    fmt::format("baseline {:.3f} s, whole image", piecewise.second.cpu_s),
+                    fmt::format("{:.2f}", piecewise.cpu_ratio), "",
+                    condition(piecewise.first.results[kMean], kDirectMean, 1e-4));
             }
             const Usage two = measure_median([&] { return render_frame({bands, light, {}, {}}); }, pairs, 2);
             row(name + ", 2 threads", fmt::format("{:.3f} s wall", two.wall_s),
