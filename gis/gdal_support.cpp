@@ -85,6 +85,12 @@ DatasetPtr open_raster(const std::filesystem::path& path) {
     return dataset;
 }
 
+DatasetPtr open_netcdf(const std::filesystem::path& path) {
+    initialise_gdal();
+    return DatasetPtr(GDALDataset::Open(("NETCDF:\"" + path.string() + "\"").c_str(),
+                                        GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+}
+
 DatasetPtr create_memory_dataset(int cols, int rows) {
     initialise_gdal();
     const GdalErrors errors;

@@ -51,6 +51,10 @@ using DatasetPtr = std::unique_ptr<GDALDataset, DatasetCloser>;
 /// Opens a raster for reading. Throws an input error: missing file, not a raster, only subdatasets (which are listed).
 DatasetPtr open_raster(const std::filesystem::path& path);
 
+/// Opens a netCDF file for its arrays; nothing when it is none. By name: files without an ending, as WRF's, go to GDAL's HDF5 driver
+/// otherwise, for which an unlimited dimension has no length.
+DatasetPtr open_netcdf(const std::filesystem::path& path);
+
 /// Raster in memory (GDAL's MEM driver) without bands. Throws a runtime error.
 DatasetPtr create_memory_dataset(int cols, int rows);
 

@@ -57,7 +57,7 @@ struct NetcdfFile::Impl {
 NetcdfFile::NetcdfFile(const std::filesystem::path& path) {
     initialise_gdal();
     const GdalErrors errors;
-    DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+    DatasetPtr dataset = open_netcdf(path);
     if (!dataset) {
         std::error_code ignored;
         if (!std::filesystem::exists(path, ignored)) throw input_error(path.string(), "no such file");

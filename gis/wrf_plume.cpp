@@ -1,6 +1,7 @@
 #include "gis/wrf_plume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,20 +18,18 @@ constexpr double kGravity_m_s2 = 9.81;  // WRF's
 /// A variable [z, y, x] of one record; indices count from the south-west and the ground.
 class Cube {
 public:
-    Cube(const NetcdfFile& file, const char* variable, int record, const std::string& unit = "")
+    Cube(const NetcdfFile& file, const char* variable, int record)
         : array_(file.read_record(variable, static_cast<std::size_t>(record))) {
-        const auto subject = fmt::format("{}, variable '{}'", file.path().string(), variable);
         if (array_.shape.size() != 3)
-            throw input_error(subject, fmt::format("has {} dimensions beside the time, expected 3", array_.shape.size()));
-        if (!unit.empty() && !array_.unit.empty() && array_.unit != "K/s" && array_.unit != "K s-1" &&
-            array_.unit != "K s^-1")
-            throw input_error(subject, fmt::format("is in '{}', expected '{}'", array_.unit, unit));
+            throw input_error(fmt::format("{}, variable '{}'", file.path().string(), variable),
+                              fmt::format("has {} dimensions beside the time, expected 3", array_.shape.size()));
     }
     [[nodiscard]] double at(int k, int row, int col) const {
         return array_
             .values[(static_cast<std::size_t>(k) * array_.shape[1] + static_cast<std::size_t>(row)) * array_.shape[2] +
                     static_cast<std::size_t>(col)];
     }
+    [[nodiscard]] const std::string& unit() const { return array_.unit; }
     [[nodiscard]] int layers() const { return static_cast<int>(array_.shape[0]); }
     void require(const char* name, int layers, int rows, int cols, const std::string& file) const {
         if (array_.shape[0] != static_cast<std::size_t>(layers) || array_.shape[1] != static_cast<std::size_t>(rows) ||
@@ -43,24 +42,64 @@ private:
     NamedArray array_;
 };
 
+/// Dry air above a place [Pa] that WRF's tendencies are multiplied by: c1 (MU + MUB) + c2 of a layer.
+class DryAir {
+public:
+    DryAir(const NetcdfFile& file, const WrfSfire& wrf, int record, int layers)
+        : mu_(file.read_record("MU", static_cast<std::size_t>(record))),
+          base_(file.read_record("MUB", static_cast<std::size_t>(record))),
+          c1_(static_cast<std::size_t>(layers), 1.0),
+          c2_(static_cast<std::size_t>(layers), 0.0) {
+        const std::vector<std::size_t> map{static_cast<std::size_t>(wrf.rows), static_cast<std::size_t>(wrf.cols)};
+        if (mu_.shape != map || base_.shape != map)
+            throw input_error(file.path().string(), fmt::format("MU and MUB are not of {} x {} values", wrf.rows, wrf.cols));
+        if (!wrf.has("C1H") || !wrf.has("C2H")) return;  // before the hybrid coordinate (WRF 3.9)
+        const auto read = [&](const char* name, std::vector<double>& into) {
+            auto values = file.read_record(name, static_cast<std::size_t>(record)).values;
+            if (values.size() != into.size())
+                throw input_error(file.path().string(),
+                                  fmt::format("{} has {} values, expected {}", name, values.size(), into.size()));
+            into = std::move(values);
+        };
+        read("C1H", c1_);
+        read("C2H", c2_);
+    }
+    [[nodiscard]] double Pa(int k, int row, int col) const {
+        const auto at = static_cast<std::size_t>(row) * mu_.shape[1] + static_cast<std::size_t>(col);
+        return c1_[static_cast<std::size_t>(k)] * (mu_.values[at] + base_.values[at]) + c2_[static_cast<std::size_t>(k)];
+    }
+
+private:
+    NamedArray mu_, base_;
+    std::vector<double> c1_, c2_;
+};
+
 struct Fields {
-    Cube heating, u, v, w, ph, phb;
+    Cube tendency, u, v, w, ph, phb;
+    DryAir air;
 
     Fields(const NetcdfFile& file, const WrfSfire& wrf, int record)
-        : heating(file, "RTHFRTEN", record, "K/s"),
+        : tendency(file, "RTHFRTEN", record),
           u(file, "U", record),
           v(file, "V", record),
           w(file, "W", record),
           ph(file, "PH", record),
-          phb(file, "PHB", record) {
-        const int nz = heating.layers();
+          phb(file, "PHB", record),
+          air(file, wrf, record, tendency.layers()) {
+        const int nz = tendency.layers();
         const auto path = file.path().string();
-        heating.require("RTHFRTEN", nz, wrf.rows, wrf.cols, path);
+        constexpr std::array kUnits{"", "K/s", "K s-1", "K s^-1", "Pa K/s", "Pa K s-1"};
+        if (std::find(kUnits.begin(), kUnits.end(), tendency.unit()) == kUnits.end())
+            throw input_error(path, fmt::format("RTHFRTEN is in '{}', expected 'K/s'", tendency.unit()));
+        tendency.require("RTHFRTEN", nz, wrf.rows, wrf.cols, path);
         u.require("U", nz, wrf.rows, wrf.cols + 1, path);
         v.require("V", nz, wrf.rows + 1, wrf.cols, path);
         w.require("W", nz + 1, wrf.rows, wrf.cols, path);
         ph.require("PH", nz + 1, wrf.rows, wrf.cols, path);
         phb.require("PHB", nz + 1, wrf.rows, wrf.cols, path);
+    }
+    [[nodiscard]] double heating_K_s(int k, int row, int col) const {
+        return tendency.at(k, row, col) / air.Pa(k, row, col);
     }
     [[nodiscard]] double height_m(int k, int row, int col) const {
         return (ph.at(k, row, col) + phb.at(k, row, col) - ph.at(0, row, col) - phb.at(0, row, col)) / kGravity_m_s2;
@@ -74,7 +113,7 @@ struct Column {
     Column(const Fields& f, const WrfSfire& wrf, int row, int col) {
         constexpr double kSlowest_m_s = 0.5;
         double below_K = 0.0;
-        for (int k = 0; k < f.heating.layers(); ++k) {
+        for (int k = 0; k < f.tendency.layers(); ++k) {
             const double bottom = f.height_m(k, row, col), top = f.height_m(k + 1, row, col), dz = top - bottom;
             const double u = 0.5 * (f.u.at(k, row, col) + f.u.at(k, row, col + 1)),
                          v = 0.5 * (f.v.at(k, row, col) + f.v.at(k, row + 1, col)),
@@ -82,7 +121,7 @@ struct Column {
                          rising = std::max(0.0, 0.5 * (f.w.at(k, row, col) + f.w.at(k + 1, row, col)));
             const double airing_per_s =
                 std::max(std::abs(u) / wrf.dx_m + std::abs(v) / wrf.dy_m + rising / dz, kSlowest_m_s / dz);
-            below_K = (f.heating.at(k, row, col) + rising_below * below_K / dz) / airing_per_s;
+            below_K = (f.heating_K_s(k, row, col) + rising_below * below_K / dz) / airing_per_s;
             height_m.push_back(0.5 * (bottom + top));
             excess_K.push_back(below_K);
         }
@@ -99,7 +138,20 @@ struct Column {
 
 }  // namespace
 
-std::vector<std::string> wrf_plume_variables() { return {"RTHFRTEN", "U", "V", "W", "PH", "PHB"}; }
+std::vector<std::string> wrf_plume_variables() { return {"RTHFRTEN", "U", "V", "W", "PH", "PHB", "MU", "MUB"}; }
+
+double wrf_heating_W(const WrfSfire& wrf, const WrfMoment& moment) {
+    constexpr double kAir_kg_m3 = 1.1, kHeat_J_kg_K = 1004.5;
+    const NetcdfFile file(moment.file);
+    const Fields fields(file, wrf, moment.record);
+    double sum_K_m_s = 0.0;
+    for (int k = 0; k < fields.tendency.layers(); ++k)
+        for (int row = 0; row < wrf.rows; ++row)
+            for (int col = 0; col < wrf.cols; ++col)
+                sum_K_m_s +=
+                    fields.heating_K_s(k, row, col) * (fields.height_m(k + 1, row, col) - fields.height_m(k, row, col));
+    return kAir_kg_m3 * kHeat_J_kg_K * sum_K_m_s * wrf.dx_m * wrf.dy_m;
+}
 
 std::filesystem::path wrf_plume(const WrfSfire& wrf, const WrfMoment& moment, std::span<const double> levels_m) {
     const NetcdfFile file(moment.file);

@@ -30,7 +30,7 @@ struct File {
     explicit File(const std::filesystem::path& p) : path(p) {
         initialise_gdal();
         const GdalErrors errors;
-        dataset.reset(GDALDataset::Open(p.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+        dataset = open_netcdf(p);
         if (dataset) root = dataset->GetRootGroup();
         std::error_code ignored;
         if (!root && !std::filesystem::exists(p, ignored)) throw input_error(p.string(), "no such file");

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes the sample files of this folder: one fire as a dozen programs would hand it out.
 
-    /usr/bin/python3 make_inputs.py FOLDER        (numpy and GDAL's Python bindings)
+    /usr/bin/python3 make_inputs.py FOLDER        (numpy, netCDF4 and GDAL's Python bindings)
 
 FOLDER holds case B of the propagation references (tests/data/propagation and its elevations): a fire that Pyretechnics and ELMFIRE
 spread over a hill with two fuels. Their arrival times are real outputs of the two programs, cut to the part that burnt; the others are
@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from netCDF4 import Dataset
 from osgeo import gdal, osr
 
 gdal.UseExceptions()
@@ -141,6 +142,47 @@ for mesh, (first, last, cell) in enumerate(((0, SPLIT, 2 * CELL), (SPLIT, COLS, 
         body += record(struct.pack("<f", time)) + record(np.pad(cells, ((0, 1), (0, 1)), constant_values=-1.0).astype("<f4").tobytes())
     (here / ("hill_hrr_%d_1.bf" % mesh)).write_bytes(body)
 (here / "hill_hrr.smv").write_text(smv)
+# WRF-SFIRE: an idealised run (MAP_PROJ 0), atmosphere of 100 m, fire grid of 20 m with its padding; rows from the south. The fire heats the air
+# as fire_tendency of WRF does, with the flux falling by exp(-z / 50 m), and the tendency is multiplied by the dry air.
+AIR, SR = 100.0, 5
+nx, ny, nz = int(COLS * CELL / AIR), int(ROWS * CELL / AIR), 16
+level = 10.0 * 1.25 ** np.arange(nz + 1) - 10.0
+layer = np.diff(level)
+with Dataset(here / "wrfout_plume_d01", "w", format="NETCDF4") as wrf:
+    for name, size in (("Time", None), ("DateStrLen", 19), ("west_east", nx), ("south_north", ny), ("bottom_top", nz), ("west_east_stag", nx + 1),
+                       ("south_north_stag", ny + 1), ("bottom_top_stag", nz + 1), ("west_east_subgrid", (nx + 1) * SR), ("south_north_subgrid", (ny + 1) * SR)):
+        wrf.createDimension(name, size)
+    wrf.setncatts({"MAP_PROJ": np.int32(0), "DX": AIR, "DY": AIR, "START_DATE": "2021-08-12_20:00:00", "SIMULATION_START_DATE": "2021-08-12_20:00:00"})
+    times = wrf.createVariable("Times", "S1", ("Time", "DateStrLen"))
+
+    def put(name, unit, dims, record, values):
+        if name not in wrf.variables:
+            wrf.createVariable(name, "f4", ("Time",) + dims, zlib=True, shuffle=True).units = unit
+        wrf.variables[name][record] = values
+
+    fire, flat = ("south_north_subgrid", "west_east_subgrid"), ("south_north", "west_east")
+    for record, time in enumerate((600, 900, 1200)):
+        times[record] = np.array(list("2021-08-12_20:%02d:00" % (time // 60)), "S1")
+        heat = flux(time)[::-1] * 1000.0
+        coarse = heat.reshape(ny, SR, nx, SR).mean(axis=(1, 3))
+        for name, unit, values in (("FGRNHFX", "W/m^2", heat), ("ZSF", "m", dem[::-1]), ("TIGN_G", "s", np.where(burnt & (arrival <= time), arrival, 1e6)[::-1]),
+                                   ("FUEL_FRAC", "1", np.where(burnt & (arrival <= time), np.exp(-np.maximum(time - arrival, 0) / 60.0), 1.0)[::-1]),
+                                   ("FGIP", "kg/m^2", np.full((ROWS, COLS), 1.5)), ("UF", "m/s", np.full((ROWS, COLS), 3.9)), ("VF", "m/s", np.full((ROWS, COLS), 1.0))):
+            put(name, unit, fire, record, np.pad(values, ((0, SR), (0, SR)), constant_values=0.0))
+        put("GRNHFX", "W/m^2", flat, record, coarse)
+        mu, mub = np.full((ny, nx), 350.0), np.full((ny, nx), 86000.0)
+        put("MU", "Pa", flat, record, mu)
+        put("MUB", "Pa", flat, record, mub)
+        put("C1H", "Dimensionless", ("bottom_top",), record, np.ones(nz))
+        put("C2H", "Pa", ("bottom_top",), record, np.zeros(nz))
+        profile = -np.diff(np.exp(-level / 50.0)) / (1.1 * 1004.5 * layer)
+        put("RTHFRTEN", "K/s", ("bottom_top",) + flat, record, (mu + mub) * coarse * profile[:, None, None])
+        put("U", "m s-1", ("bottom_top", "south_north", "west_east_stag"), record, 4.0 + 0.01 * level[:-1, None, None] + np.zeros((nz, ny, nx + 1)))
+        put("V", "m s-1", ("bottom_top", "south_north_stag", "west_east"), record, np.ones((nz, ny + 1, nx)))
+        put("W", "m s-1", ("bottom_top_stag",) + flat, record, 6.0 * (coarse / (coarse + 2e4)) * (level / 200.0 * np.exp(1.0 - level / 200.0))[:, None, None])
+        ground = dem[::-1].reshape(ny, SR, nx, SR).mean(axis=(1, 3))
+        put("PH", "m2 s-2", ("bottom_top_stag",) + flat, record, np.zeros((nz + 1, ny, nx)))
+        put("PHB", "m2 s-2", ("bottom_top_stag",) + flat, record, 9.81 * (ground + level[:, None, None]))
 # WindNinja: a wind from 255 degrees, 9 mph, faster over the hill, on cells of 100 m.
 height = dem.reshape(20, 5, 18, 5).mean(axis=(1, 3))
 asc("hill_255_9_100m_vel.asc", 9.0 * (0.9 + 0.3 * height / height.max()), 100.0, "%.2f")

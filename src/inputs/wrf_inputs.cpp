@@ -109,12 +109,25 @@ gis::WrfSfire open(const scenario::WrfSource& source) {
     return gis::open_wrf_sfire(source.files, placement);
 }
 
-void check_plume(const gis::WrfSfire& wrf, const std::string& file) {
+void check_plume(const gis::WrfSfire& wrf, const Series& series, const std::string& file, std::vector<std::string>& notes) {
     std::vector<std::string> missing;
     for (const auto& name : gis::wrf_plume_variables())
         if (!wrf.has(name)) missing.push_back(name);
     if (!missing.empty())
         throw input_error(file, fmt::format("has no {}, which inputs.wrf_sfire.plume needs", fmt::join(missing, ", ")));
+    if (!wrf.has("GRNHFX")) return;
+    constexpr double kTolerance = 2.0;
+    for (auto moment = series.moments().rbegin(); moment != series.moments().rend(); ++moment) {
+        const double fire_W = gis::wrf_integral(wrf, **moment, "GRNHFX", WrfGrid::Atmosphere);
+        if (!(fire_W > 0.0)) continue;
+        const double air_W = gis::wrf_heating_W(wrf, **moment);
+        if (!(air_W * kTolerance > fire_W && air_W < kTolerance * fire_W))
+            notes.push_back(
+                fmt::format("WRF record {} of {}: RTHFRTEN heats the air with {:.3g} W, GRNHFX is {:.3g} W: the "
+                            "plume is too {}",
+                            (*moment)->record, (*moment)->file.string(), air_W, fire_W, air_W < fire_W ? "cool" : "hot"));
+        return;
+    }
 }
 
 }  // namespace
@@ -143,7 +156,7 @@ scenario::Scenario with_wrf_inputs(scenario::Scenario s) {
         s.notes.push_back(fmt::format("{} of {} WRF records lie before the scenario's start and are left out", skipped,
                                       wrf.moments.size()));
 
-    if (source.plume) check_plume(wrf, file);
+    if (source.plume) check_plume(wrf, series, file, s.notes);
 
     auto& in = s.inputs;
     if (in.terrain.files.empty()) in.terrain = terrain(wrf, series, file, s.notes);

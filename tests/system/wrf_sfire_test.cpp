@@ -1,8 +1,11 @@
 // The thesis fire from a file in the layout of WRF-SFIRE and from GeoTIFFs on another grid: the same images.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -10,6 +13,7 @@
 #include "gis/raster_input.h"
 #include "gis/raster_output.h"
 #include "inputs/load_scenario.h"
+#include "pipeline/run.h"
 #include "system/support.h"
 
 namespace pyroscene::test {
@@ -139,6 +143,67 @@ TEST(WrfSfire, OnAnotherMapItIsStillInItsPlace) {
     EXPECT_NEAR(own.sum / utm.sum, 1.0, 0.1);
     // Fronts are known to a cell of 20 m: within half of one.
     for (const int pixels : shift_between(own, utm)) EXPECT_LE(std::abs(pixels), 3);
+}
+
+// A run whose file has the heating of the air: smoke and hot air over the fire; none without `plume`.
+TEST(WrfSfire, HeatingOfTheFileBecomesSmokeInTheImage) {
+    const auto sample = source_folder() / "scenarios" / "fire_models" / "wrf_plume.yaml";
+    const ScratchFolder scratch;
+    const auto run = [&](const char* name, const std::filesystem::path& yaml) {
+        pipeline::RunOptions options;
+        options.output = scratch / name;
+        options.threads = 2;
+        RunReport report;
+        const auto scenario = inputs::load_scenario(yaml);
+        for (const auto& note : scenario.notes) EXPECT_EQ(note.find("RTHFRTEN"), std::string::npos) << note;
+        pipeline::run(scenario, options, report);
+        const auto truth = gis::read_image(scratch / name / "camera" / "truth.tif");
+        const auto smoke = plane(truth, "fraction_smoke");
+        return std::pair{smoke, plane(gis::read_image(scratch / name / "camera" / "radiance.tif"), 2)};
+    };
+    const auto [smoke, lwir] = run("with", sample);
+    const auto plain = scratch / "plain.yaml";
+    {
+        std::ifstream in(sample);
+        std::string text((std::istreambuf_iterator<char>(in)), {});
+        const auto folder = sample.parent_path().string();
+        const auto replace = [&](const std::string& what, const std::string& by) {
+            const auto at = text.find(what);
+            ASSERT_NE(at, std::string::npos) << what;
+            text.replace(at, what.size(), by);
+        };
+        replace(", plume: true", "");
+        replace("wrfout_plume_d01", folder + "/wrfout_plume_d01");
+        replace("../minimal", folder + "/../minimal");
+        std::ofstream(plain) << text;
+    }
+    const auto [none, bare] = run("without", plain);
+    EXPECT_EQ(*std::max_element(none.begin(), none.end()), 0.0);
+    EXPECT_GT(*std::max_element(smoke.begin(), smoke.end()), 0.05);
+    // Part of the image only, and every pixel of it with a radiance.
+    const auto smoky = std::count_if(smoke.begin(), smoke.end(), [](double f) { return f > 0.02; });
+    EXPECT_GT(smoky, 50);
+    EXPECT_LT(smoky, static_cast<std::ptrdiff_t>(smoke.size()) / 2);
+    std::size_t changed_outside = 0;
+    for (std::size_t i = 0; i < smoke.size(); ++i) {
+        EXPECT_TRUE(lwir[i] > 0.0) << i;
+        if (smoke[i] == 0.0 && std::abs(lwir[i] - bare[i]) > 0.01 * bare[i]) ++changed_outside;
+    }
+    EXPECT_LT(changed_outside, smoke.size() / 100);
+    // It stands where the fire is.
+    const auto centre = [](const std::vector<double>& weight) {
+        double sum = 0.0, down = 0.0, across = 0.0;
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            sum += weight[i];
+            down += weight[i] * static_cast<double>(i / 160);
+            across += weight[i] * static_cast<double>(i % 160);
+        }
+        return std::array{down / sum, across / sum};
+    };
+    auto hot = bare;
+    for (double& v : hot) v = std::max(0.0, v - 20.0);
+    EXPECT_NEAR(centre(smoke)[0], centre(hot)[0], 10.0);
+    EXPECT_NEAR(centre(smoke)[1], centre(hot)[1], 10.0);
 }
 
 }  // namespace

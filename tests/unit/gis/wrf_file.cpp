@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <cpl_string.h>
 #include <gdal_priv.h>
@@ -36,7 +37,17 @@ double WrfTestFile::fire_value(const std::string& variable, int record, int col,
 }
 
 double WrfTestFile::air_value(const std::string& variable, int record, int k, int row, int col) {
-    if (variable == "RTHFRTEN") return record * 0.01 * (k + 1) * (col + 1);
+    // Dry air above a cell and how much of it counts in a layer.
+    if (variable == "MU") return 400.0 + 10.0 * col;
+    if (variable == "MUB") return 88000.0 - 100.0 * row;
+    if (variable == "C1H") return 1.0 - 0.1 * k;
+    if (variable == "C2H") return 300.0 * k;
+    if (variable == "heating_K_s") return record * 0.01 * (k + 1) * (col + 1);
+    if (variable == "RTHFRTEN")
+        return air_value("heating_K_s", record, k, row, col) *
+               (air_value("C1H", record, k, row, col) *
+                    (air_value("MU", record, k, row, col) + air_value("MUB", record, k, row, col)) +
+                air_value("C2H", record, k, row, col));
     if (variable == "U") return 2.0 + 0.5 * col;
     if (variable == "V") return -1.0 - 0.25 * row;
     if (variable == "W") return 0.8 * k;
@@ -89,7 +100,9 @@ void WrfTestFile::write(const std::filesystem::path& path) const {
     root->CreateAttribute("START_DATE", {}, GDALExtendedDataType::CreateString())->Write(start.c_str());
 
     const auto dimension = [&](const char* name, int size) {
-        return root->CreateDimension(name, {}, {}, static_cast<GUInt64>(size), nullptr);
+        const char* const unlimited[] = {"UNLIMITED=YES", nullptr};  // as WRF's Time
+        return root->CreateDimension(name, {}, {}, static_cast<GUInt64>(size),
+                                     std::string_view(name) == "Time" ? unlimited : nullptr);
     };
     const int records = static_cast<int>(times.size()), fine_cols = (cols + 1) * refine_x, fine_rows = (rows + 1) * refine_y;
     const auto time = dimension("Time", records), y = dimension("south_north", rows), x = dimension("west_east", cols);
@@ -146,14 +159,21 @@ void WrfTestFile::write(const std::filesystem::path& path) const {
                                            {"V", {time, z, ys, x}},
                                            {"W", {time, zs, y, x}},
                                            {"PH", {time, zs, y, x}},
-                                           {"PHB", {time, zs, y, x}}}) {
+                                           {"PHB", {time, zs, y, x}},
+                                           {"MU", {time, y, x}},
+                                           {"MUB", {time, y, x}},
+                                           {"C1H", {time, z}},
+                                           {"C2H", {time, z}}}) {
         if (!wanted(name)) continue;
         std::vector<float> values;
+        const bool flat = dimensions.size() == 3, column = dimensions.size() == 2;
         const auto size = [&](std::size_t d) { return static_cast<int>(dimensions[d]->GetSize()); };
+        const int layers_of = flat ? 1 : size(1), rows_of = column ? 1 : size(flat ? 1 : 2),
+                  cols_of = column ? 1 : size(flat ? 2 : 3);
         for (int t = 0; t < records; ++t)
-            for (int k = 0; k < size(1); ++k)
-                for (int r = 0; r < size(2); ++r)
-                    for (int c = 0; c < size(3); ++c) values.push_back(static_cast<float>(air_value(name, t, k, r, c)));
+            for (int k = 0; k < layers_of; ++k)
+                for (int r = 0; r < rows_of; ++r)
+                    for (int c = 0; c < cols_of; ++c) values.push_back(static_cast<float>(air_value(name, t, k, r, c)));
         write_floats(*root, name, dimensions, values);
     }
     for (const char* name : {"ZSF", "TIGN_G", "FUEL_FRAC", "FGIP", "UF", "VF", "FGRNHFX"}) {

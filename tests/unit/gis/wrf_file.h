@@ -26,7 +26,8 @@ struct WrfTestFile {
 
     /// Value of a variable of the fire grid: record, column from the west, row from the SOUTH.
     static double fire_value(const std::string& variable, int record, int col, int row);
-    /// Of the atmosphere: RTHFRTEN, U, V, W, PH, PHB with their staggered dimensions; layer (or level) k from the ground.
+    /// Of the atmosphere: RTHFRTEN (heating_K_s times the dry air, as WRF writes it), U, V, W, PH, PHB with their staggered dimensions,
+    /// MU, MUB, C1H, C2H; layer (or level) k from the ground.
     static double air_value(const std::string& variable, int record, int k, int row, int col);
     void write(const std::filesystem::path& path) const;
     /// Longitude and latitude of a place in the projection [deg].

@@ -141,7 +141,7 @@ TEST_F(WrfSfireFiles, HeatingMakesAPlume) {
                 const double airing = (air("U", k, row, col) + air("U", k, row, col + 1)) / 2.0 / 90.0 -
                                       (air("V", k, row, col) + air("V", k, row + 1, col)) / 2.0 / 90.0 +
                                       0.8 * (k + 0.5) / dz;
-                excess.push_back((air("RTHFRTEN", k, row, col) + (k > 0 ? 0.8 * k * excess.back() / dz : 0.0)) / airing);
+                excess.push_back((air("heating_K_s", k, row, col) + (k > 0 ? 0.8 * k * excess.back() / dz : 0.0)) / airing);
                 height.push_back((z(k) + z(k + 1)) / 2.0);
             }
             const int map_row = layout.rows - 1 - row;
