@@ -229,7 +229,7 @@ void show_power(drawing::HtmlPage& page, const inputs::SceneInputs& inputs, cons
     for (const auto& shown : images) {
         const auto& a = *shown.image->acquisition;
         radiated.x.push_back(a.time_s / 60.0);
-        radiated.y.push_back(1e-6 * (energy(values, a.id, "front_W") + energy(values, a.id, "flame_W")));
+        radiated.y.push_back(1e-6 * energy(values, a.id, "radiant_fraction") * energy(values, a.id, "heat_release_W"));
         if (!shown.digest.seen_frp_MW) continue;
         seen.x.push_back(a.time_s / 60.0);
         seen.y.push_back(*shown.digest.seen_frp_MW);
@@ -281,19 +281,24 @@ void show_energy(drawing::HtmlPage& page, const RunReport& report, const std::ve
     for (const auto& shown : images) {
         const auto& id = shown.image->acquisition->id;
         const auto MW = [&](const char* name) { return number(1e-6 * energy(values, id, name)); };
-        rows.push_back({shown.id(), MW("heat_release_W"), MW("front_W"), MW("flame_W"), MW("scar_W"),
+        rows.push_back({shown.id(), MW("heat_release_W"), MW("front_W"), MW("flame_W"), MW("flame_gas_W"), MW("scar_W"),
                         number(100.0 * energy(values, id, "radiant_fraction")),
                         shown.digest.seen_frp_MW ? number(*shown.digest.seen_frp_MW) : "–"});
     }
     page.heading(2, "Energy budget", "energy");
-    page.table({"image", "heat release MW", "front MW", "flame MW", "scar MW", "radiant fraction %", "seen FRP MW"}, rows);
+    page.table({"image", "heat release MW", "front MW", "flame soot MW", "flame gas MW", "scar MW", "radiant fraction %",
+                "seen FRP MW"},
+               rows);
     show_radiative_energy(page, images);
     const double heat_J = energy(values, "inputs", "heat_released_J"), fuel_J = energy(values, "inputs", "fuel_heat_J");
     if (std::isfinite(heat_J))
         page.paragraph(fmt::format(
             "Over all frames the heat flux releases {:.4g} GJ{}.", 1e-9 * heat_J,
             std::isfinite(fuel_J) ? fmt::format("; the fuel that burnt holds {:.4g} GJ", 1e-9 * fuel_J) : std::string()));
-    page.paragraph("Front and flame: what they emit into all directions (flames optically thin). Scar: above ambient.");
+    page.paragraph(
+        "Front and flame: what they emit into all directions, soot as if nothing took it up again. The radiant fraction "
+        "counts "
+        "of the front what its flames let through. Scar: above ambient.");
 }
 
 void show_overview(drawing::HtmlPage& page, const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,

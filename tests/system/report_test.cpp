@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -46,6 +47,16 @@ TEST(RunReportPage, HoldsTheRunAndNeedsNothingElse) {
     for (const double v : power_MW)
         if (std::isfinite(v)) sum_MW += v;
     EXPECT_NE(html.find(fmt::format("<dd>{:.4g} MW</dd>", sum_MW)), std::string::npos) << sum_MW;
+
+    // The radiant fraction follows from the powers beside it: all of soot and gas, and some of the front.
+    std::vector<double> row;
+    const auto budget_at = html.find("id=\"energy\"");
+    const auto table = html.substr(budget_at, html.find("</table>", budget_at) - budget_at);
+    const std::regex cell("<td[^>]*>([-0-9.eE+]+)</td>");
+    for (std::sregex_iterator i(table.begin(), table.end(), cell), end; i != end; ++i) row.push_back(std::stod((*i)[1]));
+    ASSERT_EQ(row.size(), 7U) << table;  // heat, front, soot, gas, scar, fraction in percent, seen
+    EXPECT_GT(0.01 * row[5] * row[0], row[2] + row[3]);
+    EXPECT_LT(0.01 * row[5] * row[0], row[1] + row[2] + row[3]);
 
     // The scenario's text is shown as text: its quotes and ampersands are entities.
     EXPECT_NE(html.find(drawing::html_escaped(read_text_file(scenario))), std::string::npos);
