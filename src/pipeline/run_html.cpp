@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/fire_energy.h"
-#include "base/csv.h"
 #include "base/files.h"
 #include "drawing/html_page.h"
 #include "drawing/line_plot.h"
@@ -18,6 +16,7 @@
 #include "pipeline/fire_map.h"
 #include "pipeline/hash.h"
 #include "pipeline/image_digest.h"
+#include "pipeline/run_html_power.h"
 #include "pipeline/stac.h"
 #include "pipeline/state_file.h"
 
@@ -38,11 +37,6 @@ struct ShownImage {
         return item.value("properties", Json::object()).value(name, std::nan(""));
     }
 };
-
-std::string number(double value, const char* unit = "") {
-    if (!std::isfinite(value)) return "–";
-    return fmt::format("{:.4g}{}{}", value, *unit != '\0' ? " " : "", unit);
-}
 
 std::string utc(const scenario::Scenario& scenario, double time_s) {
     return UtcTime{scenario.start.unix_s + time_s}.iso8601();
@@ -107,15 +101,15 @@ void show_spectra(drawing::HtmlPage& page, const ShownImage& shown) {
         rows.push_back({p.kind, std::to_string(p.sample), std::to_string(p.line), fmt::format("{:.5f}", p.longitude_deg),
                         fmt::format("{:.5f}", p.latitude_deg)});
         for (const double f : p.fractions) rows.back().push_back(fmt::format("{:.2f}", 100.0 * f));
-        rows.back().push_back(number(p.ground_temperature_K));
-        rows.back().push_back(number(p.flame_temperature_K));
+        rows.back().push_back(report_number(p.ground_temperature_K));
+        rows.back().push_back(report_number(p.flame_temperature_K));
         radiances.push_back({p.kind});
         for (const auto b : bands) {
             const auto limit = digest.bands[b].metadata.find("saturation_radiance");
             constexpr double kRounding = 1e-5;  // the limit is kept in six digits
             const bool clipped = limit != digest.bands[b].metadata.end() &&
                                  p.radiance_W_m2_sr_um[b] >= std::stod(limit->second) * (1.0 - kRounding);
-            radiances.back().push_back(number(p.radiance_W_m2_sr_um[b]) + (clipped ? " (clipped)" : ""));
+            radiances.back().push_back(report_number(p.radiance_W_m2_sr_um[b]) + (clipped ? " (clipped)" : ""));
         }
     }
     page.table(head, rows);
@@ -136,7 +130,8 @@ void show_histogram(drawing::HtmlPage& page, const ShownImage& shown) {
     std::vector<std::vector<std::string>> rows;
     for (const auto b : some_bands(digest.bands.size(), 12)) {
         const auto& s = digest.statistics[b];
-        rows.push_back({band_label(digest.bands[b], b), number(s.lowest), number(s.mean), number(s.highest)});
+        rows.push_back(
+            {band_label(digest.bands[b], b), report_number(s.lowest), report_number(s.mean), report_number(s.highest)});
     }
     page.table({"band", "lowest", "mean", "highest, W m-2 sr-1 um-1"}, rows);
 }
@@ -147,14 +142,14 @@ void show_image(drawing::HtmlPage& page, const scenario::Scenario& scenario, con
     page.heading(3, shown.id(), shown.id());
     page.facts({{"sensor", image.sensor + ", " + image.group},
                 {"time", utc(scenario, image.acquisition->time_s)},
-                {"after the start", number(image.acquisition->time_s / 60.0, "min")},
+                {"after the start", report_number(image.acquisition->time_s / 60.0, "min")},
                 {"image", fmt::format("{} x {}, {} band{}", digest.samples, digest.lines, digest.bands.size(),
                                       digest.bands.size() == 1 ? "" : "s")},
-                {"pixel on the ground", number(shown.property("gsd"), "m")},
-                {"view zenith, centre", number(shown.property("view:incidence_angle"), "deg")},
-                {"sun elevation", number(shown.property("view:sun_elevation"), "deg")},
+                {"pixel on the ground", report_number(shown.property("gsd"), "m")},
+                {"view zenith, centre", report_number(shown.property("view:incidence_angle"), "deg")},
+                {"sun elevation", report_number(shown.property("view:sun_elevation"), "deg")},
                 {"pixels with fire", std::to_string(digest.fire_pixels)},
-                {"fire radiative power seen", digest.seen_frp_MW ? number(*digest.seen_frp_MW, "MW") : "–"}});
+                {"fire radiative power seen", digest.seen_frp_MW ? report_number(*digest.seen_frp_MW, "MW") : "–"}});
     const auto quicklook = image.files.folder / ("quicklook" + image.files.suffix + ".png");
     if (std::filesystem::exists(quicklook))
         page.picture(read_text_file(quicklook), "quick-look of " + shown.id(), "Quick-look, sensor geometry.");
@@ -207,100 +202,6 @@ void show_map(drawing::HtmlPage& page, const scenario::Scenario& scenario, const
                     utc(scenario, frame), frame));
 }
 
-/// Value recorded as energy/<acquisition>/<name>; NaN when it was not.
-double energy(const std::map<std::string, double>& values, const std::string& acquisition, const char* name) {
-    const auto found = values.find("energy/" + acquisition + "/" + name);
-    return found == values.end() ? std::nan("") : found->second;
-}
-
-/// Heat release of all frames as their state files tell it, seen and radiated power of the acquisitions.
-void show_power(drawing::HtmlPage& page, const inputs::SceneInputs& inputs, const RunOptions& options,
-                const RunReport& report, const std::vector<ShownImage>& images) {
-    drawing::PlotSeries released{"heat release, frames", {}, {}, false}, radiated{"front and flame radiate", {}, {}, true},
-        seen{"fire radiative power seen", {}, {}, true};
-    for (const auto& frame : inputs.frames) {
-        const auto path = state_path(options.output, frame.time_s);
-        const auto metadata = gis::read_metadata(path);
-        if (!metadata || !metadata->contains("HEAT_RELEASE_W")) continue;
-        released.x.push_back(frame.time_s / 60.0);
-        released.y.push_back(1e-6 * parse_number(metadata->at("HEAT_RELEASE_W"), path.string() + ": HEAT_RELEASE_W"));
-    }
-    const auto values = report.values();
-    for (const auto& shown : images) {
-        const auto& a = *shown.image->acquisition;
-        radiated.x.push_back(a.time_s / 60.0);
-        radiated.y.push_back(1e-6 * energy(values, a.id, "radiant_fraction") * energy(values, a.id, "heat_release_W"));
-        if (!shown.digest.seen_frp_MW) continue;
-        seen.x.push_back(a.time_s / 60.0);
-        seen.y.push_back(*shown.digest.seen_frp_MW);
-    }
-    drawing::LinePlot plot{"",
-                           {"minutes after the start", false, {}, {}},
-                           {"power [MW]", true, {}, {}},
-                           {std::move(released), std::move(radiated), std::move(seen)},
-                           900,
-                           400,
-                           {}};
-    const bool any = std::any_of(plot.series.begin(), plot.series.end(), [](const auto& series) {
-        return std::any_of(series.y.begin(), series.y.end(), [](double y) { return y > 0.0; });
-    });
-    if (!any) return;
-    page.heading(2, "Power over time", "power");
-    page.picture(
-        drawing::line_plots_png(std::span(&plot, 1)), "power over time",
-        "Heat that the frames release, what front and flame radiate of it, and the fire radiative power that each image "
-        "sees (true, without noise and background; less where the image does not hold the whole fire).");
-}
-
-/// Energy that the images of one sensor saw radiated, where there are two or more of different times.
-void show_radiative_energy(drawing::HtmlPage& page, const std::vector<ShownImage>& images) {
-    std::map<std::string, std::map<double, double>> power_MW;  // by sensor, then by time
-    for (const auto& shown : images)
-        if (shown.digest.seen_frp_MW)
-            power_MW[shown.image->sensor + ", " + shown.image->group][shown.image->acquisition->time_s] =
-                *shown.digest.seen_frp_MW;
-    std::vector<std::vector<std::string>> rows;
-    for (const auto& [sensor, series] : power_MW) {
-        if (series.size() < 2) continue;
-        std::vector<double> time_s, MW;
-        for (const auto& [t_s, power] : series) {
-            time_s.push_back(t_s);
-            MW.push_back(power);
-        }
-        rows.push_back({sensor, std::to_string(series.size()), number(time_s.front() / 60.0), number(time_s.back() / 60.0),
-                        number(1e-3 * analysis::fire_radiative_energy(time_s, MW).back())});
-    }
-    if (rows.empty()) return;
-    page.table({"fire radiative energy", "images", "from min", "to min", "GJ"}, rows);
-    page.paragraph("Seen fire radiative power, integrated over time by trapezoids between images.");
-}
-
-void show_energy(drawing::HtmlPage& page, const RunReport& report, const std::vector<ShownImage>& images) {
-    const auto values = report.values();
-    std::vector<std::vector<std::string>> rows;
-    for (const auto& shown : images) {
-        const auto& id = shown.image->acquisition->id;
-        const auto MW = [&](const char* name) { return number(1e-6 * energy(values, id, name)); };
-        rows.push_back({shown.id(), MW("heat_release_W"), MW("front_W"), MW("flame_W"), MW("flame_gas_W"), MW("scar_W"),
-                        number(100.0 * energy(values, id, "radiant_fraction")),
-                        shown.digest.seen_frp_MW ? number(*shown.digest.seen_frp_MW) : "–"});
-    }
-    page.heading(2, "Energy budget", "energy");
-    page.table({"image", "heat release MW", "front MW", "flame soot MW", "flame gas MW", "scar MW", "radiant fraction %",
-                "seen FRP MW"},
-               rows);
-    show_radiative_energy(page, images);
-    const double heat_J = energy(values, "inputs", "heat_released_J"), fuel_J = energy(values, "inputs", "fuel_heat_J");
-    if (std::isfinite(heat_J))
-        page.paragraph(fmt::format(
-            "Over all frames the heat flux releases {:.4g} GJ{}.", 1e-9 * heat_J,
-            std::isfinite(fuel_J) ? fmt::format("; the fuel that burnt holds {:.4g} GJ", 1e-9 * fuel_J) : std::string()));
-    page.paragraph(
-        "Front and flame: what they emit into all directions, soot as if nothing took it up again. The radiant fraction "
-        "counts "
-        "of the front what its flames let through. Scar: above ambient.");
-}
-
 void show_overview(drawing::HtmlPage& page, const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
                    const std::vector<ShownImage>& images, const RunReport& report) {
     page.paragraph((scenario.title.empty() ? std::string() : scenario.title + ". ") +
@@ -344,8 +245,12 @@ void write_html_report(const scenario::Scenario& scenario, const inputs::SceneIn
     drawing::HtmlPage page(scenario.name, {{"generator", "pyroscene " + version()}, {"fingerprint", fingerprint}});
     show_overview(page, scenario, inputs, shown, report);
     show_map(page, scenario, inputs, options, shown);
-    show_power(page, inputs, options, report, shown);
-    show_energy(page, report, shown);
+    std::vector<ImagePower> powers;
+    for (const auto& s : shown)
+        powers.push_back({s.id(), s.image->acquisition->id, s.image->sensor + ", " + s.image->group,
+                          s.image->acquisition->time_s, s.digest.seen_frp_MW});
+    show_power(page, inputs, options, report, powers);
+    show_energy(page, report, powers);
     page.heading(2, "Images");
     for (std::size_t k = 0; k < std::min(shown.size(), kMostImages); ++k) show_image(page, scenario, shown[k]);
     if (shown.size() > kMostImages)
