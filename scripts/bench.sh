@@ -63,3 +63,14 @@ echo "flame: {hot_gas: false}" >> "$out/soot.yaml"
 time_case "B2t thesis case, radiance GeoTIFF" "$out/soot.yaml" "P 3.6 s, G 1 s"
 time_case "the same with hot gas" "$out/radiance.yaml" ""
 time_case "thesis case, all products" "$scenario" ""
+
+# A flight line of an imaging spectrometer over the same fire.
+sed -e "s#file: #file: $PWD/scenarios/thesis_grassfire/#" -e '/^acquisitions:/,$d' "$scenario" > "$out/line.yaml"
+cat >> "$out/line.yaml" << 'EOL'
+acquisitions:
+  - {id: line, sensor: aviris-classic, time_s: 3714, lines: 512, samples: all,
+     platform: {over: centre, altitude_agl_m: 20000, heading_deg: 0}}
+EOL
+time_case "AVIRIS 677 x 512 x 224 over the thesis case, all but native forms" "$out/line.yaml" "40 s, 1024 MB"
+echo "products: [radiance, ortho, native]" >> "$out/line.yaml"
+time_case "the same, radiance, ortho and native forms" "$out/line.yaml" "40 s, 1024 MB"
