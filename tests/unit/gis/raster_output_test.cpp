@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/random.h"
+#include "gis/image_stream.h"
 #include "gis/tiff_writer.h"
 #include "unit/gis/written_raster.h"
 
@@ -108,6 +110,43 @@ TEST(GeoTiff, HoldsTheStatisticsOfItsPixels) {
         EXPECT_EQ(stored(*ds, 1, "STATISTICS_VALID_PERCENT"), 100.0);
         EXPECT_EQ(item(ds->GetRasterBand(2), "STATISTICS_MEAN"), "(none)");
         EXPECT_EQ(stored(*ds, 2, "STATISTICS_VALID_PERCENT"), 0.0);
+    }
+}
+
+TEST(GeoTiff, TheStatisticsSkipHolesWhereverTheyAre) {
+    const TempFolder folder;
+    constexpr int kCols = 7, kRows = 53;  // several parts, none a multiple of four pixels
+    OutputRaster raster = two_bands(kCols, kRows);
+    raster.tile_rows = 16;
+    std::vector<float> pixels;
+    double sum = 0.0, squares = 0.0, count = 0.0;
+    for (int i = 0; i < 2 * kCols * kRows; ++i) {
+        const bool hole = i < 3 || i % 11 == 5;
+        pixels.push_back(hole ? std::numeric_limits<float>::quiet_NaN() : 300.0F + static_cast<float>(i % 17));
+        if (hole || i >= kCols * kRows) continue;
+        sum += i % 17, squares += (i % 17) * (i % 17), count += 1.0;
+    }
+    TiffWriter writer(folder / "a.tif", raster);
+    for (std::size_t b = 0; b < 2; ++b)
+        for (int row = 0; row < kRows; row += writer.tile_rows()) {
+            const int rows = std::min(writer.tile_rows(), kRows - row);
+            writer.write({b, 1, row, rows},
+                         std::span<const float>(pixels).subspan(b * kCols * kRows + static_cast<std::size_t>(row * kCols),
+                                                                static_cast<std::size_t>(rows * kCols)));
+        }
+    writer.finish();
+    const auto ds = open_written(folder / "a.tif");
+    EXPECT_EQ(stored(*ds, 1, "STATISTICS_MINIMUM"), 300.0);
+    EXPECT_EQ(stored(*ds, 1, "STATISTICS_MAXIMUM"), 316.0);
+    EXPECT_NEAR(stored(*ds, 1, "STATISTICS_MEAN"), 300.0 + sum / count, 1e-9);
+    EXPECT_NEAR(stored(*ds, 1, "STATISTICS_STDDEV"), std::sqrt(squares / count - sum * sum / count / count), 1e-9);
+    EXPECT_NEAR(stored(*ds, 1, "STATISTICS_VALID_PERCENT"), 100.0 * count / (kCols * kRows), 1e-3);
+
+    ImageStream stream(folder / "a.tif");  // single values are those of the band
+    const auto band = stream.read_band(2);
+    for (const int i : {0, 5, 100, kCols * kRows - 1}) {
+        const float value = stream.read_value(2, i % kCols, i / kCols), expected = band[static_cast<std::size_t>(i)];
+        EXPECT_TRUE(value == expected || (std::isnan(value) && std::isnan(expected))) << i;
     }
 }
 
