@@ -1,5 +1,6 @@
 #include "gis/vector_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -184,6 +185,39 @@ Raster<std::uint8_t> cells_of(const Shapes& shapes, const MapGrid& grid, bool to
                                             GDT_Byte, 0, 0, nullptr) != CE_None)
         throw runtime_error("shapes", "cannot be drawn on the map: " + errors.message());
     return mask;
+}
+
+int close_lines(Shapes& shapes, double reach_m) {
+    const auto apart = [](const Position& a, const Position& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); };
+    auto left = std::move(shapes.lines);
+    shapes.lines.clear();
+    int areas = 0;
+    while (!left.empty()) {
+        Path path = std::move(left.front());
+        left.erase(left.begin());
+        // Goes on with the line whose end is nearest until it is back at its start.
+        while (path.size() < 3 || apart(path.front(), path.back()) > reach_m) {
+            std::size_t next = left.size();
+            double nearest_m = reach_m;
+            for (std::size_t i = 0; i < left.size(); ++i)
+                if (const double d = std::min(apart(path.back(), left[i].front()), apart(path.back(), left[i].back()));
+                    d <= nearest_m)
+                    next = i, nearest_m = d;
+            if (next == left.size()) break;
+            Path piece = std::move(left[next]);
+            left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+            if (apart(path.back(), piece.back()) < apart(path.back(), piece.front()))
+                std::reverse(piece.begin(), piece.end());
+            path.insert(path.end(), piece.begin(), piece.end());
+        }
+        if (path.size() >= 3 && apart(path.front(), path.back()) <= reach_m) {
+            shapes.polygons.push_back({std::move(path)});
+            ++areas;
+        } else {
+            shapes.lines.push_back(std::move(path));
+        }
+    }
+    return areas;
 }
 
 }  // namespace pyroscene::gis

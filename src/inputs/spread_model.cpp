@@ -53,7 +53,11 @@ void seed_path(std::vector<spread::Seed>& seeds, const gis::Path& path, bool clo
 std::vector<spread::Seed> seeds_of(const Scenario& scenario, const MapGrid& grid) {
     std::vector<spread::Seed> seeds;
     for (const auto& source : scenario.inputs.spread->ignition) {
-        const auto shapes = shapes_of(scenario, source, "ignition", grid);
+        auto shapes = shapes_of(scenario, source, "ignition", grid);
+        if (source.area && gis::close_lines(shapes, grid.cell_m) == 0)
+            throw input_error(
+                fmt::format("{}:{}: inputs.spread.ignition", scenario.path.string(), source.line_number),
+                fmt::format("has no line that closes within {:g} m; without 'area' it burns as a line", grid.cell_m));
         for (const auto& p : shapes.points) seeds.push_back({grid.col_at(p[0]), grid.row_at(p[1]), source.time_s});
         for (const auto& line : shapes.lines) seed_path(seeds, line, false, grid, source.time_s);
         for (const auto& polygon : shapes.polygons)

@@ -42,7 +42,7 @@ std::string text(const std::vector<scenario::ShapesSource>& all) {
         out += ";";
     };
     for (const auto& shapes : all) {
-        out += fmt::format("{}|{}|{}|", shapes.layer, shapes.crs, shapes.time_s);
+        out += fmt::format("{}|{}|{}|{}|", shapes.layer, shapes.crs, shapes.time_s, shapes.area);
         for (const auto* list : {&shapes.points, &shapes.line, &shapes.polygon}) positions(*list);
     }
     return out;

@@ -58,6 +58,9 @@ ShapesSource read_shapes(const config::Node& node, const fs::path& folder, bool 
     shapes.polygon = read_positions(node.child("polygon"), 3);
     shapes.crs = node.text("crs", "");
     if (timed) shapes.time_s = node.number("time_s", 0.0, Range::between(0.0, 1e8));
+    if (timed) shapes.area = node.boolean("area", false);
+    if (shapes.area && !shapes.file && shapes.line.empty())
+        node.child("area").report("is about lines: of a 'file' or 'line'");
     node.finish();
     return shapes;
 }

@@ -209,7 +209,8 @@ std::string spread_keys() {
           "properties": {
 )json" + std::string(kShapeKeys) +
            R"json(,
-            "time_s": {"type": "number", "minimum": 0, "maximum": 1e8, "description": "from when on it burns; without it: 0"}
+            "time_s": {"type": "number", "minimum": 0, "maximum": 1e8, "description": "from when on it burns; without it: 0"},
+            "area": {"type": "boolean", "description": "lines that close are outlines of areas, which burn as a whole"}
           }}},
         "barriers": {"type": "array", "minItems": 1, "items": {
           "type": "object",

@@ -34,6 +34,7 @@ struct ShapesSource {
     std::vector<std::array<double, 2>> points, line, polygon;
     std::string crs;      ///< of coordinates (empty = the map's) and of files that do not say theirs
     double time_s = 0.0;  ///< from when on it burns
+    bool area = false;    ///< lines that close are outlines of areas
     int line_number = 0;  ///< in the scenario, for messages
 };
 

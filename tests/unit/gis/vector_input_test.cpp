@@ -113,5 +113,26 @@ TEST(CellsOf, CountsCentresInAreasAndAllThatIsTouched) {
     EXPECT_EQ(count(cells_of({}, map(), true)), 0);
 }
 
+TEST(CloseLines, JoinsPiecesOfAPerimeterAndLeavesOpenLines) {
+    Shapes shapes;
+    // A square in two pieces of opposite directions, with gaps of 1 m; a closed triangle; a line of its own.
+    shapes.lines = {{{0, 0}, {100, 0}, {100, 100}},
+                    {{500, 0}, {600, 0}},
+                    {{0, 1}, {0, 100}, {99, 100}},
+                    {{200, 0}, {300, 0}, {250, 80}, {200, 0}}};
+    EXPECT_EQ(close_lines(shapes, 5.0), 2);
+    ASSERT_EQ(shapes.polygons.size(), 2U);
+    ASSERT_EQ(shapes.lines.size(), 1U);
+    EXPECT_EQ(shapes.lines[0].front(), (Position{500, 0}));
+    EXPECT_EQ(shapes.polygons[0][0], (Path{{0, 0}, {100, 0}, {100, 100}, {99, 100}, {0, 100}, {0, 1}}));
+    const MapGrid grid{.cols = 10, .rows = 10, .west_m = 0.0, .north_m = 100.0, .cell_m = 10.0, .crs_wkt = "map"};
+    const auto inside = cells_of(shapes, grid, false);
+    EXPECT_EQ(inside.at(5, 5), 1);
+    Shapes wide;
+    wide.lines = {{{0, 0}, {100, 0}, {100, 100}, {0, 100}, {0, 20}}};
+    EXPECT_EQ(close_lines(wide, 5.0), 0);
+    EXPECT_EQ(wide.lines.size(), 1U);
+}
+
 }  // namespace
 }  // namespace pyroscene::gis
