@@ -12,7 +12,7 @@ GroundMix::GroundMix(const SceneTables& tables)
       reflection_(static_cast<std::size_t>(tables.materials)),
       smoky_sky_(tables) {}
 
-void GroundMix::add(int material, double temperature_K, double weight, const GroundLight& light) {
+void GroundMix::add_emission(int material, double temperature_K, double weight) {
     const PlanckRows::Lookup found = tables_->planck.at(temperature_K);
     const int first = material * tables_->planck.row_count() + found.row;
     for (int j = 0; j < found.count; ++j) {
@@ -23,6 +23,9 @@ void GroundMix::add(int material, double temperature_K, double weight, const Gro
             touched_.push_back(static_cast<std::int32_t>(i));
         }
     }
+}
+
+void GroundMix::add_reflection(int material, double weight, const GroundLight& light) {
     Reflection& reflection = reflection_[static_cast<std::size_t>(material)];
     if (light.smoke.to_sun > 0.0F || light.smoke.above > 0.0F) {
         shaded_.push_back({material, weight * light.sun_cosine, weight * light.open, light.smoke});

@@ -39,8 +39,13 @@ class GroundMix {
 public:
     explicit GroundMix(const SceneTables& tables);
 
-    /// Ground of one material and temperature that fills `weight` of the view.
-    void add(int material, double temperature_K, double weight, const GroundLight& light);
+    /// Ground of one material and temperature that fills `weight` of the view: what it emits and what it reflects.
+    void add(int material, double temperature_K, double weight, const GroundLight& light) {
+        add_emission(material, temperature_K, weight);
+        add_reflection(material, weight, light);
+    }
+    void add_emission(int material, double temperature_K, double weight);
+    void add_reflection(int material, double weight, const GroundLight& light);
     /// The open sky itself, at a zenith angle of this cosine.
     void add_sky(double zenith_cosine, double weight) noexcept;
     /// Adds the spectra of all that was gathered to `out` and forgets it.

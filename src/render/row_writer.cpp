@@ -16,7 +16,9 @@ RowWriter::RowWriter(const LightScene& shared, const SceneTables& tables, const 
       kernels_(&spectral_kernels()),
       light_(shared),
       mix_(tables),
+      fire_mix_(tables),
       terrain_(tables.stride),
+      fire_(tables.stride),
       smoky_sky_(tables),
       through_(static_cast<std::size_t>(tables.stride)),
       opacity_(through_.size()),
@@ -38,6 +40,12 @@ void RowWriter::write(const Receiver& receiver, const LatticeReceiver& place, Ro
     if (!out.through.empty()) std::copy(through_.begin(), through_.end(), at(out.through));
     terrain_.clear();
     const double hidden_sr = shared_->rough ? look_at_terrain(receiver, light.row_of_cell, out.patches[row]) : 0.0;
+    if (!fire_mix_.empty()) {
+        fire_.clear();
+        fire_mix_.resolve(nullptr, fire_);
+        kernels_->add_product(tables_->stride, 1.0F, through_.data(), fire_.part(GroundSpectra::Emission),
+                              at(light.irradiance_W_m2_um));
+    }
     const auto open = static_cast<float>(1.0 - hidden_sr / kPi);
     const radiometry::ViewAtmosphere& air = *shared_->scene.atmosphere;
     const SmokeShade shade = out.smoke != nullptr ? out.smoke->at({receiver.x_m, receiver.y_m, 0.0}) : SmokeShade{};
@@ -92,8 +100,22 @@ void RowWriter::sum_flame(float* irradiance) {
     for (int l = 0; l < tables_->lambdas; ++l) irradiance[l] = std::max(irradiance[l], 0.0F);
 }
 
-/// The slopes that hide the sky: fills `terrain_` with their own emission and what they reflect of sun and open sky,
-/// and `patches` with where they are. Returns the cosine-weighted solid angle that they fill.
+/// The glow of the front, and of a scar above the ambient, counts with the light of the flames.
+void RowWriter::add_slope(const GroundCell& ground, double weight_sr, const GroundLight& light) {
+    const double front = weight_sr * ground.front_fraction, rest = weight_sr - front;
+    if (front > 0.0) {
+        fire_mix_.add_emission(tables_->burnt_material, tables_->front_K, front);
+        mix_.add_reflection(tables_->burnt_material, front, light);
+    }
+    if (!(rest > 0.0)) return;
+    if (!ground.burned) return mix_.add(ground.base_material, ground.base_K, rest, light);
+    fire_mix_.add_emission(ground.base_material, ground.base_K, rest);
+    fire_mix_.add_emission(ground.base_material, tables_->ambient_K, -rest);
+    mix_.add(ground.base_material, tables_->ambient_K, rest, light);
+}
+
+/// The slopes that hide the sky: fills `terrain_` with their own emission and what they reflect of sun and open sky, `fire_mix_`
+/// with the glow of what burns or has burnt, and `patches` with where they are. Returns the cosine-weighted solid angle that they fill.
 double RowWriter::look_at_terrain(const Receiver& receiver, const std::vector<std::int32_t>& row_of_cell,
                                   std::vector<TerrainPatch>& patches) {
     const RenderScene& scene = shared_->scene;
@@ -109,7 +131,7 @@ double RowWriter::look_at_terrain(const Receiver& receiver, const std::vector<st
         if (!(ground.base_K > 0.0)) return;
         GroundLight light;
         if (tables_->has_sun) light.sun_cosine = sun_cosine(scene, *hit);
-        add_ground(*tables_, ground, weight_sr, light, mix_);
+        add_slope(ground, weight_sr, light);
         seen_sr += weight_sr;
         const int col = std::clamp(static_cast<int>(grid.col_at(hit->point_m.x + scene.scene_origin_m.x)), 0, grid.cols - 1);
         const int row = std::clamp(static_cast<int>(grid.row_at(hit->point_m.y + scene.scene_origin_m.y)), 0, grid.rows - 1);

@@ -34,6 +34,7 @@ public:
 private:
     bool interpolate(const LatticeReceiver& place, Rows& out);
     void sum_flame(float* irradiance);
+    void add_slope(const GroundCell& ground, double weight_sr, const GroundLight& light);
     double look_at_terrain(const Receiver& receiver, const std::vector<std::int32_t>& row_of_cell,
                            std::vector<TerrainPatch>& patches);
 
@@ -42,8 +43,8 @@ private:
     const SceneTables* tables_;
     const SpectralKernels* kernels_;
     ReceiverLight light_;
-    GroundMix mix_;
-    GroundSpectra terrain_;
+    GroundMix mix_, fire_mix_;
+    GroundSpectra terrain_, fire_;  ///< what slopes in view send; the glow of burning and burnt ground stands in `fire_`
     SmokySky smoky_sky_;
     std::vector<float> through_, opacity_, of_moment_, dimmed_sky_;
 };

@@ -125,11 +125,12 @@ struct GroundIrradiance {
     MapGrid grid;
     std::vector<std::int32_t> row_of_cell;  ///< [map cell] row into the arrays below, -1 = none
     int lambda_count = 0;
-    int stride = 0;                                 ///< floats per row, lambda_count padded with zeros to whole vectors
-    std::vector<float> irradiance_W_m2_um;          ///< [row][lambda] by flames
-    std::vector<float> sky_irradiance_W_m2_um;      ///< [row][lambda] diffuse sun; empty at night
-    std::vector<float> thermal_irradiance_W_m2_um;  ///< [row][lambda] thermal sky and glowing slopes; empty if none
-    std::shared_ptr<const SkyView> sky_view;        ///< (sky_view.h) for cells without a row; null on a plane
+    int stride = 0;                             ///< floats per row, lambda_count padded with zeros to whole vectors
+    std::vector<float> irradiance_W_m2_um;      ///< [row][lambda] by flames and the glow of ground in view
+    std::vector<float> sky_irradiance_W_m2_um;  ///< [row][lambda] diffuse sun; empty at night
+    std::vector<float>
+        thermal_irradiance_W_m2_um;           ///< [row][lambda] thermal sky and slopes as warm as the ambient; empty if none
+    std::shared_ptr<const SkyView> sky_view;  ///< (sky_view.h) for cells without a row; null on a plane
     LightSamplingError sampling_error;
 };
 

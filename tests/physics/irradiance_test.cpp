@@ -254,22 +254,28 @@ TEST(GroundLight, SkyIsDimmedByTheFlameInFrontOfIt) {
 }
 
 TEST(GroundLight, BurningSlopesLightEachOther) {
-    // A V-shaped valley whose eastern slope burns: the western one receives light that is no flame's.
+    // A V-shaped valley whose eastern slope burns: the western one receives its glow, as light of the fire and not of the sky.
     TestScene scene({.cols = 20, .rows = 9, .cell_m = 10.0, .ground_K = 300.0, .absorption_per_m = 0.3});
     scene.set_heights([](double x, double) { return std::abs(x - 100.0); });
     for (int r = 0; r < 9; ++r) {
-        for (int c = 12; c < 20; ++c) scene.surface.front_fraction[scene.surface.grid.index(r, c)] = 1.0F;
+        for (int c = 12; c < 20; ++c) {
+            const auto cell = scene.surface.grid.index(r, c);
+            scene.surface.burned[cell] = 1;
+            scene.surface.base_temperature_K[cell] = 900.0F;  // a scar that glows fills what does not flame
+            scene.surface.front_fraction[cell] = 0.75F;
+        }
     }
     const std::vector<fire::FlameVoxel> spark{{0, 0, 0, 0.001F, 1000.0F}};
     scene.set_flame({.corner_m = {100.0, 40.0, 30.0}, .nx = 1, .ny = 1, .dx_m = 2.0, .dy_m = 2.0, .dz_m = 2.0}, spark);
     const auto light = render::ground_irradiance(scene.scene(), {});
-    const auto at = [&](int col) {
+    const auto thermal_at = [&](int col) {
         return light.thermal_irradiance_W_m2_um[static_cast<std::size_t>(light.row_of_cell[light.grid.index(4, col)]) *
                                                 static_cast<std::size_t>(light.stride)];
     };
-    EXPECT_GT(at(5), 0.05 * kPi * planck_radiance(4.0, 1073.15));
-    EXPECT_LT(at(5), 0.5 * kPi * planck_radiance(4.0, 1073.15));
-    EXPECT_LT(at(15), 1e-2F * at(5));  // the burning slope faces cold ground
+    EXPECT_GT(irradiance_at(light, 4, 5), 0.05 * kPi * planck_radiance(4.0, 1073.15));
+    EXPECT_LT(irradiance_at(light, 4, 5), 0.5 * kPi * planck_radiance(4.0, 1073.15));
+    EXPECT_LT(irradiance_at(light, 4, 15), 1e-2F * irradiance_at(light, 4, 5));  // the burning slope faces cold ground
+    for (const int col : {5, 15}) EXPECT_LT(thermal_at(col), kPi * planck_radiance(4.0, 300.0)) << col;
 }
 
 }  // namespace
