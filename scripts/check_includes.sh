@@ -39,7 +39,7 @@ BEGIN {
     foreign["cli"]      = "^(CLI/|spdlog/)"
 
     standard = "^[a-z0-9_]+$"
-    posix    = "^((unistd|fcntl|signal|poll|termios|pthread|immintrin)\\.h|sys/[a-z]+\\.h)$"
+    posix    = "^((unistd|dlfcn|fcntl|signal|poll|termios|pthread|immintrin)\\.h|sys/[a-z]+\\.h)$"
 }
 function complain(text) {
     printf "%s:%d: %s\n", FILENAME, FNR, text

@@ -1,3 +1,4 @@
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -273,9 +274,18 @@ std::vector<std::string> calc_words(int argc, char** argv) {
     return words;
 }
 
+/// GDAL and OpenCV may bring in OpenBLAS, whose threads spin for a tenth of a second from the start of a program on, on cores
+/// that the work wants. It starts them again where they are used.
+void stop_idle_blas_threads() {
+    using Shutdown = int (*)();
+    const auto shutdown = reinterpret_cast<Shutdown>(dlsym(RTLD_DEFAULT, "blas_thread_shutdown_"));
+    if (shutdown != nullptr) shutdown();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    stop_idle_blas_threads();
     auto logger = spdlog::stderr_color_mt("pyroscene");
     spdlog::set_default_logger(logger);
     spdlog::set_pattern("%^%l%$: %v");
