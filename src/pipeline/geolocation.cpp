@@ -42,8 +42,9 @@ Geolocation::Geolocation(const sensors::ImageGeometry& geometry, const sensors::
       chords_(&chords),
       sun_(&sun),
       surroundings_m_(surroundings_m),
-      pixels_(static_cast<std::size_t>(geometry.samples) * static_cast<std::size_t>(geometry.lines)),
-      planes_(pixels_ * kGeolocationBands.size(), std::nan("")) {}
+      pixels_(static_cast<std::size_t>(geometry.samples) * static_cast<std::size_t>(geometry.lines)) {
+    planes_.resize(pixels_ * kGeolocationBands.size());
+}
 
 void Geolocation::add(const render::RadianceImage& lines) {
     tbb::parallel_for(lines.first_line, lines.first_line + lines.lines, [&](int line) { place_line(lines, line); });
@@ -58,7 +59,10 @@ void Geolocation::place_line(const render::RadianceImage& lines, int line) {
             static_cast<std::size_t>(line - lines.first_line) * samples + static_cast<std::size_t>(sample);
         const std::size_t i = static_cast<std::size_t>(line) * samples + static_cast<std::size_t>(sample);
         const bool on_map = lines.coverage[here] > 0.0F;
-        if (!on_map && (!surroundings_m_ || chords_->open() || sensors::pixel_deleted(geometry, sample, line))) continue;
+        if (!on_map && (!surroundings_m_ || chords_->open() || sensors::pixel_deleted(geometry, sample, line))) {
+            for (std::size_t b = 0; b < kGeolocationBands.size(); ++b) planes_[b * pixels_ + i] = std::nan("");
+            continue;
+        }
         const auto position = sensors::scan_position_of(geometry, sample, line);
         const auto chord = scan.at(position.u, position.v);
         const Vec3 hit_m = on_map ? Vec3{lines.hit_x_m[here], lines.hit_y_m[here], lines.hit_z_m[here]}

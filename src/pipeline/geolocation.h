@@ -2,8 +2,10 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "base/buffer.h"
 #include "gis/geodesy.h"
 #include "gis/raster_output.h"
 #include "radiometry/sun.h"
@@ -45,7 +47,7 @@ public:
     Geolocation(const sensors::ImageGeometry& geometry, const sensors::ImageChords& chords, const LocalSun& sun,
                 std::optional<double> surroundings_m);
     void add(const render::RadianceImage& lines);
-    [[nodiscard]] const std::vector<double>& planes() const noexcept { return planes_; }  ///< [plane][line][sample]
+    [[nodiscard]] std::span<const double> planes() const noexcept { return planes_; }  ///< [plane][line][sample]
     /// Pixels that tie the image to the ground, evenly over it or over the part that sees something.
     [[nodiscard]] std::vector<gis::GroundControlPoint> control_points() const;
 
@@ -57,7 +59,7 @@ private:
     const LocalSun* sun_;
     std::optional<double> surroundings_m_;
     std::size_t pixels_;
-    std::vector<double> planes_;
+    Buffer<double> planes_;
 };
 
 }  // namespace pyroscene::pipeline

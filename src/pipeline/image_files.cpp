@@ -181,9 +181,7 @@ void ImageFiles::finish(const Geolocation& geolocation, RunReport& report) {
     out.compression = gis::Compression::Zstd;
     out.tile_rows = 128;  // a part of it is read without the rest
     for (const auto& [name, unit] : kGeolocationBands) out.bands.push_back({name, unit, {}, {}, {}});
-    const auto write_geolocation = [&] {
-        gis::write_geotiff(job_->files.geolocation(), out, std::span<const double>(geolocation.planes()));
-    };
+    const auto write_geolocation = [&] { gis::write_geotiff(job_->files.geolocation(), out, geolocation.planes()); };
     tbb::parallel_invoke(write_geolocation, [&] {
         if (truth_) truth_->finish();
     });

@@ -212,14 +212,18 @@ void render_acquisition(Session& s, const Acquisition& acquisition, std::optiona
             s.report.count("images_skipped", 1);
             continue;
         }
-        if (!terrain) terrain.emplace(s.inputs.terrain_m, s.inputs.origin_m);
-        if (!scene) {
+        const auto make_terrain = [&] {
+            if (!terrain) terrain.emplace(s.inputs.terrain_m, s.inputs.origin_m);
+        };
+        const auto make_scene = [&] {
+            if (scene) return;
             const PhaseTimer timer(s.report, "render/fire_scene");
             state = state_for(s, acquisition);
             scene = make_fire_scene(s.scenario, s.inputs, *state, acquisition.time_s);
             meet_radiant_fraction(s.report, s.scenario, *state, *scene, acquisition.id);
             record_energy(s.report, s.scenario, *state, *scene, acquisition.id);
-        }
+        };
+        tbb::parallel_invoke(make_terrain, make_scene);
         const GroupJob job{s.scenario,
                            acquisition,
                            s.inputs,
