@@ -40,18 +40,29 @@ fi
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 median() { printf '%s\n' "$@" | sort -g | sed -n "$(( ($# + 1) / 2 ))p"; }
-time_case() {  # name, scenario file, limits
+seconds_of() { sed -n "s#^ *\"$1\": \([0-9.e-]*\),*\$#\1#p" "$out/run/run.json"; }  # a phase of the last run
+ratio() { awk "BEGIN { printf \"%.2f\", $1 / $2 }"; }
+time_case() {  # name, scenario file, limits; one and two threads alternately
     local threads run user system real kilobytes
-    for threads in 1 2; do
-        local cpu=() wall=() peak=0
-        for ((run = 0; run < pairs; ++run)); do
+    local -A cpu=() wall=() light=() image=() peak=([1]=0 [2]=0)
+    for ((run = 0; run < pairs; ++run)); do
+        for threads in 1 2; do
             rm -rf "$out/run"
             read -r user system real kilobytes < <({ /usr/bin/time -f '%U %S %e %M' "$cli" run "$2" -o "$out/run" \
                 --threads "$threads" -q > "$out/log" 2>&1; } 2>&1 || true; tail -1 "$out/log")
-            cpu+=("$(awk "BEGIN { print $user + $system }")") wall+=("$real") peak=$((kilobytes / 1024))
+            cpu[$threads]+=" $(awk "BEGIN { print $user + $system }")" wall[$threads]+=" $real"
+            light[$threads]+=" $(seconds_of render/ground_irradiance)" image[$threads]+=" $(seconds_of render/image)"
+            ((kilobytes / 1024 > peak[$threads])) && peak[$threads]=$((kilobytes / 1024))
         done
-        echo "| $1, $threads thread(s) | $(median "${cpu[@]}") s CPU, $(median "${wall[@]}") s wall, $peak MB |  |  | $3 | |"
     done
+    # shellcheck disable=SC2086  # lists of numbers
+    for threads in 1 2; do
+        cpu[$threads]=$(median ${cpu[$threads]}) wall[$threads]=$(median ${wall[$threads]})
+        light[$threads]=$(median ${light[$threads]}) image[$threads]=$(median ${image[$threads]})
+        echo "| $1, $threads thread(s) | ${cpu[$threads]} s CPU, ${wall[$threads]} s wall, ${peak[$threads]} MB |  |  | $3 | |"
+    done
+    echo "| $1, wall | 2 threads | 1 thread | $(ratio "${wall[1]}" "${wall[2]}") times as fast; flame light" \
+         "$(ratio "${light[1]}" "${light[2]}"), image $(ratio "${image[1]}" "${image[2]}") | 1.8 on two idle cores | |"
 }
 # The comparison line is three channels with flames of soot, reflected light and atmosphere as one GeoTIFF; the second case
 # adds hot gas in the flames, the third everything else that a run makes (truth, brightness temperature, fractions, FRP,
