@@ -46,7 +46,7 @@ std::string acquisition_of(const sensors::Sensor& sensor) {
                                  : sensor.airborne ? "{over: centre, altitude_agl_m: 3000}"
                                                    : "{over: centre, pass: descending}";
     return fmt::format("  - {{id: {0}, sensor: {0}, time_s: 0, platform: {1}, bands: [{2}]{3}}}\n", sensor.id, platform,
-                       bands, stands ? "" : ", lines: 2");
+                       bands, stands || sensor.scan == sensors::ScanType::Framing ? "" : ", lines: 2");
 }
 
 /// What a band reports of the plane: radiances that are 600 K but for noise and counts, or the saturation.
