@@ -1,9 +1,9 @@
 # Spectra of flames: figures 6.1 to 6.3, 6.5, A.1, A.2 and A.4.
 flame() { pyroscene calc flame-emissivity "$@"; }
 
-# Figure 6.1 (a): 2.4 m of flame of 1700 K against a blackbody; (b): its potassium lines at the 3 nm of the ASD's sampling.
+# Figure 6.1 (a): 2.4 m of flame of 1700 K against a blackbody, without the lines, which 5 nm miss; (b): its potassium lines at the 3 nm of the ASD's sampling.
 { echo wavelength_um; awk 'BEGIN { for (w = 0.35; w <= 2.5; w += 0.005) printf "%.4f\n", w }'; } >"$tables/asd_in.csv"
-flame --csv "$tables/asd_in.csv" --temperature_K 1700 --path_m 2.438 -o "$tables/asd.csv"
+flame --csv "$tables/asd_in.csv" --temperature_K 1700 --path_m 2.438 --potassium_ppm 0 -o "$tables/asd.csv"
 awk -F, 'NR == 1 { print "wavelength_um,flame,black_body_1700_K"; next } { printf "%s,%s,%.6g\n", $1, $3, 1.191042972e8 / ($1 ^ 5 * (exp(14387.7688 / ($1 * 1700)) - 1)) }' "$tables/asd.csv" >"$tables/fig_6_1a.csv"
 pyroscene plot "$tables/fig_6_1a.csv" --x wavelength_um --y flame,black_body_1700_K --x-label "wavelength [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_6_1a.png"
 # Figure 6.2: radiance at 1.2 um over the length of the fuel bed.
@@ -47,7 +47,7 @@ number emissivity_20cm_gas_over_window "$(awk -v a="$(emissivity 4.4)" -v b="$(e
 
 # Figure 6.5: 8 m of air at 1100 K with the gases of the atmosphere, no soot.
 { echo wavelength_um; awk 'BEGIN { for (w = 1; w <= 15; w += 0.02) printf "%.4f\n", w }'; } >"$tables/hot_air_in.csv"
-flame --csv "$tables/hot_air_in.csv" --temperature_K 1100 --path_m 8 --soot_volume_fraction 0 --x_h2o 0.014 --x_co2 0.00037 --x_co 0 --x_o2 0.2 -o "$tables/hot_air.csv"
+flame --csv "$tables/hot_air_in.csv" --temperature_K 1100 --path_m 8 --soot_volume_fraction 0 --x_h2o 0.014 --x_co2 0.00037 --x_co 0 --x_o2 0.2 --potassium_ppm 0 -o "$tables/hot_air.csv"
 awk -F, 'NR == 1 { print "wavelength_um,transmittance,radiance"; next } { printf "%s,%.6g,%s\n", $1, 1 - $2, $3 }' "$tables/hot_air.csv" >"$tables/fig_6_5.csv"
 pyroscene plot "$tables/fig_6_5.csv" --x wavelength_um --y transmittance --x-label "wavelength [um]" -o "$images/fig_6_5_transmission.png"
 pyroscene plot "$tables/fig_6_5.csv" --x wavelength_um --y radiance --x-label "wavelength [um]" --y-label "radiance [W m-2 sr-1 um-1]" -o "$images/fig_6_5_emission.png"

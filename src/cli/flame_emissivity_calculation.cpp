@@ -95,19 +95,21 @@ void plot(const Arguments& a, const std::string& file) {
 }  // namespace
 
 Calculation flame_emissivity_calculation() {
+    const FlameGas usual;  // that of a scenario that says nothing of its flames
+    const auto words = [](double value) { return fmt::format("{:g}", value); };
     return {"flame-emissivity",
             "emissivity and radiance of a homogeneous flame (soot, hot gas, K and Na lines) at one vacuum wavelength",
             {{"wavelength_um", {}},
              {"temperature_K", {}},
              {"path_m", {}},
-             {"soot_volume_fraction", "2e-7"},
-             {"x_h2o", "0.14"},
-             {"x_co2", "0.10"},
-             {"x_co", "0.02"},
-             {"x_ch4", "0"},
-             {"x_o2", "0.03"},
-             {"potassium_ppm", "0"},
-             {"sodium_ppm", "0"},
+             {"soot_volume_fraction", words(usual.soot_volume_fraction)},
+             {"x_h2o", words(usual.x_H2O)},
+             {"x_co2", words(usual.x_CO2)},
+             {"x_co", words(usual.x_CO)},
+             {"x_ch4", words(usual.x_CH4)},
+             {"x_o2", words(usual.x_O2)},
+             {"potassium_ppm", words(usual.potassium_ppm)},
+             {"sodium_ppm", words(usual.sodium_ppm)},
              {"pressure_atm", "1"}},
             {"emissivity", "radiance_W_m2_sr_um"},
             compute,

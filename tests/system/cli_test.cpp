@@ -99,6 +99,9 @@ TEST(Calc, FlameEmissivity) {
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(radiance[i], expected[i], 1e-3 * expected[i]);
     EXPECT_NEAR(-std::log1p(-emissivity[6]), 0.142, 0.0006);
     EXPECT_GT(emissivity[7], 0.9999999);
+    // Not told otherwise, the flame is that of a scenario: 1 ppm of potassium.
+    const auto usual = pyroscene_cli("calc flame-emissivity --temperature_K 1100 --path_m 1 --wavelength_um 0.766700922");
+    EXPECT_NE(usual.output.find("emissivity = 1\n"), std::string::npos) << usual.output;
 
     const auto too_much =
         pyroscene_cli("calc flame-emissivity --wavelength_um 4 --temperature_K 1100 --path_m 1 --x_h2o 0.95");
@@ -113,8 +116,7 @@ TEST(Calc, FlameEmissivity) {
 TEST(Calc, FlameEmissivityPlotsItsSpectrum) {
     const ScratchFolder scratch;
     const auto file = (scratch / "flame.png").string();
-    const auto drawn =
-        pyroscene_cli("calc flame-emissivity --temperature_K 1100 --path_m 1 --potassium_ppm 1 --plot " + file);
+    const auto drawn = pyroscene_cli("calc flame-emissivity --temperature_K 1100 --path_m 1 --plot " + file);
     ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
     EXPECT_TRUE(drawn.output.empty()) << drawn.output;
     const auto bytes = file_bytes(file);
