@@ -42,7 +42,7 @@ struct FlameRelations {
     IntensityRule intensity = IntensityRule::Auto;
     DepthRule depth = DepthRule::HeatFlux;
     std::optional<double> residence_time_s;     ///< of flames at one place; absent = the raster of FrontInputs
-    double heat_of_combustion_J_kg = 16.515e6;  ///< low heat (thesis 4.6.3)
+    double heat_of_combustion_J_kg = 16.515e6;  ///< fuel to heat: low heat (thesis 4.6.3)
     double consumed_fraction = 1.0;             ///< of the fuel load, in the flaming front
     double maximum_spread_rate_m_s = 10.0;      ///< for rates from arrival times
 };

@@ -29,7 +29,7 @@ struct PlumeParameters {
     double wind_height_m = 6.1, wind_exponent = 0.143;
     double air_temperature_K = 300.0, air_density_kg_m3 = 1.18, air_heat_capacity_J_kg_K = 1005.0;
     double emission_factor_g_kg = 10.0;         ///< particles per fuel burnt
-    double heat_of_combustion_J_kg = 17.433e6;  ///< heat per fuel burnt: smoke per heat is the ratio of the two
+    double heat_of_combustion_J_kg = 17.433e6;  ///< heat back to fuel, for its smoke: what fire models count with
     std::optional<double> temperature_K;        ///< of every voxel, instead of the computed one (thesis: 795 K)
     bool uniform = false;                       ///< every voxel has fill 1 (absorption given per metre of plume)
     std::vector<SmokeLayer> layers;  ///< added to the voxels by exact overlap, as far as the plume's lattice reaches

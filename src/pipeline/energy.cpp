@@ -153,7 +153,7 @@ void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario,
     if (!scenario.inputs.fuel_load) return;
     const auto last = read_state(state_path(output, in.frames.back().time_s), in.grid, in.arrival_time_s);
     const double fuel_J =
-        fuel_consumed_kg(*scenario.inputs.fuel_load, in, last) * scenario.plume.parameters.heat_of_combustion_J_kg;
+        fuel_consumed_kg(*scenario.inputs.fuel_load, in, last) * scenario.fire.flames.heat_of_combustion_J_kg;
     report.record("energy/inputs/fuel_heat_J", fuel_J);
     if (fuel_J > 0.0) report.record("energy/inputs/released_per_fuel_heat", released_J / fuel_J);
     if (released_J > 1.1 * fuel_J)

@@ -24,7 +24,7 @@ void meet_radiant_fraction(RunReport& report, const scenario::Scenario& scenario
 
 /// Heat of all frames (trapezoid over time of the release that the state files hold) as energy/inputs/heat_released_J and,
 /// with a fuel load, fuel_heat_J: fuel consumed (first minus last band; of a single band all fuel where the last frame's
-/// state is burning or burnt) x heat of combustion. Warns when more than 1.1 times the fuel's heat is released (E = int H <= w h).
+/// state is burning or burnt) x fire.heat_of_combustion_J_kg. Warns when more than 1.1 times the fuel's heat is released (E = int H <= w h).
 void record_inputs_energy(RunReport& report, const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
                           const std::filesystem::path& output);
 

@@ -70,7 +70,7 @@ SmokeLayerSettings read_layer(const config::Node& node) {
 
 }  // namespace
 
-PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire) {
+PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire, bool own_fuel) {
     PlumeSettings plume;
     auto& p = plume.parameters;
     p.air_temperature_K = fire.air_temperature_K;
@@ -86,6 +86,7 @@ PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const f
     p.entrainment = node.number("entrainment", p.entrainment, Range::between(0.05, 2.0));
     p.merge_m = node.number("merge_m", p.merge_m, Range::between(0.0, 1e5));
     p.emission_factor_g_kg = node.number("emission_factor_g_kg", p.emission_factor_g_kg, Range::between(0.0, 1000.0));
+    if (own_fuel) p.heat_of_combustion_J_kg = fire.flames.heat_of_combustion_J_kg;
     p.heat_of_combustion_J_kg = node.number("heat_of_combustion_J_kg", p.heat_of_combustion_J_kg, Range::between(1e6, 1e8));
     p.temperature_K = node.optional_number("temperature_K", kTemperature_K);
     plume.grey_absorption_per_m = node.optional_number("absorption_per_m", Range::between(0.0, 1e3));

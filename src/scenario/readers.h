@@ -58,7 +58,8 @@ void check_flame_inputs(const config::Node& root, const Scenario& scenario);
 /// \param has_cover the inputs say the class of each cell, which `by_cover` needs
 void read_scar(const config::Node& node, const std::filesystem::path& folder, bool has_cover,
                fire::FireParameters& parameters);
-PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire);
+/// \param own_fuel  the scenario gives `fire` a heat of combustion, which is then that of the smoke's fuel too
+PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire, bool own_fuel);
 /// \param folder  of the scenario file
 PlumeSource read_plume_source(const config::Node& node, const std::filesystem::path& folder);
 SurfaceSettings read_surface(const config::Node& node, const std::filesystem::path& folder);

@@ -102,7 +102,7 @@ Scenario load(const fs::path& path) {
     check_flame_inputs(root, s);
     s.flame = read_flame(root.child("flame"), s.physics);
     s.flame.parameters.profile.air_K = s.fire.air_temperature_K;
-    s.plume = read_plume(root.child("plume"), s.inputs, s.fire);
+    s.plume = read_plume(root.child("plume"), s.inputs, s.fire, root.child("fire").has("heat_of_combustion_J_kg"));
     s.surface = read_surface(root.child("surface"), folder);
     s.atmosphere = read_atmosphere(root.child("atmosphere"), folder);
     s.render = read_render(root.child("render"), s.surface);

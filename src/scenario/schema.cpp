@@ -79,7 +79,8 @@ constexpr const char* kSchema = R"json({
             "slope": {"type": "boolean", "default": false}
           }
         },
-        "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 5e7, "default": 16515000},
+        "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 5e7, "default": 16515000,
+          "description": "low heat of the fuel: fireline intensity, burning rate, energy budget; if given, smoke too"},
         "maximum_spread_rate_m_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 100, "default": 10},
         "fireline_intensity": {
           "type": "object",
@@ -172,7 +173,8 @@ constexpr const char* kSchema = R"json({
         "smoke": {"enum": ["savanna", "cerrado", "amazon_forest", "boreal_forest"], "default": "savanna"},
         "multiple_scattering": {"type": "boolean", "default": true, "description": "false: smoke scatters light once"},
         "emission_factor_g_kg": {"type": "number", "minimum": 0, "maximum": 1000, "default": 10},
-        "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 1e8, "default": 17.433e6}
+        "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 1e8,
+          "description": "turns heat back into fuel, for its smoke; default: fire.heat_of_combustion_J_kg if given, else 17.433e6"}
       }
     },
     "scar": {

@@ -62,8 +62,7 @@ std::vector<Rule> rules(const config::Node& root, const Scenario& s) {
          "flame.composition",
          {"x_H2O", "x_CO2", "x_CO", "x_CH4", "x_O2", "potassium_ppm", "sodium_ppm"},
          "there is no hot gas"},
-        // Its heat of combustion also serves the energy budget.
-        {!plume, "plume", all_keys_but(root.child("plume"), {"model", "heat_of_combustion_J_kg"}), "there is no plume"},
+        {!plume, "plume", all_keys_but(root.child("plume"), {"model"}), "there is no plume"},
         {plume && !s.plume.rise,
          "plume",
          {"duration_s", "entrainment", "merge_m"},

@@ -1,6 +1,7 @@
 // Flame heights and tilts as a user meets them: calc, and scenarios whose rasters are known in closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -221,6 +222,27 @@ TEST_F(RunningFront, CountsWhatCannotBeDerived) {
     RunReport none;
     prepare("", "  flame_height: {method: heskestad, plume_coefficient_m_kW: 0.1, burning_area_fraction: 1}\n", none);
     EXPECT_GT(none.counters().at("front_cells_without_flame_height"), 10);
+}
+
+// The last frame's front and scar have burnt 0.5 kg/m2 of the fuel that the flames burn, whatever the smoke is reckoned from.
+TEST_F(RunningFront, BudgetsTheHeatOfTheFuelThatItsFlamesBurn) {
+    const auto fuel_heat_J = [&](const std::string& fire, double& burnt_m2) {
+        RunReport report;
+        const auto state = prepare(kFuel_, fire, report);
+        const auto& cells = state.cell_class.values;
+        burnt_m2 =
+            state.cell_class.grid.cell_area_m2() * static_cast<double>(std::count_if(cells.begin(), cells.end(), [](auto c) {
+                return c == static_cast<std::uint8_t>(fire::CellClass::Front) ||
+                       c == static_cast<std::uint8_t>(fire::CellClass::Scar);
+            }));
+        return report.values().at("energy/inputs/fuel_heat_J");
+    };
+    double burnt_m2 = 0.0;
+    EXPECT_NEAR(fuel_heat_J("", burnt_m2) / (0.5 * burnt_m2 * 16.515e6), 1.0, 1e-6);
+    EXPECT_GT(burnt_m2, 1000.0);
+    EXPECT_NEAR(fuel_heat_J("  heat_of_combustion_J_kg: 1.8e7\n", burnt_m2) / (0.5 * burnt_m2 * 1.8e7), 1.0, 1e-6);
+    EXPECT_NEAR(fuel_heat_J("plume: {model: rise, heat_of_combustion_J_kg: 1e7}\n", burnt_m2) / (0.5 * burnt_m2 * 16.515e6),
+                1.0, 1e-6);
 }
 
 // The state after a break is that of a run in one go, also with methods that read more rasters; a new method is not skipped.

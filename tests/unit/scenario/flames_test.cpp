@@ -76,4 +76,16 @@ TEST(Plume, LayersOfSmokeAreRead) {
     EXPECT_FALSE(folder.load(shortest("plume: {model: rise, multiple_scattering: false}\n")).plume.multiple_scattering);
 }
 
+// The smoke of a fuel whose heat is given for the fire comes from that fuel, unless the plume names another.
+TEST(Plume, TakesTheHeatOfTheFiresFuel) {
+    const ScenarioFolder folder;
+    const auto heat_J_kg = [&](const std::string& keys) {
+        return folder.load(shortest(keys)).plume.parameters.heat_of_combustion_J_kg;
+    };
+    EXPECT_EQ(heat_J_kg("plume: {model: rise}\n"), 17.433e6);
+    EXPECT_EQ(heat_J_kg("fire: {heat_of_combustion_J_kg: 1.8e7}\nplume: {model: rise}\n"), 1.8e7);
+    EXPECT_EQ(heat_J_kg("fire: {heat_of_combustion_J_kg: 1.8e7}\nplume: {model: rise, heat_of_combustion_J_kg: 2e7}\n"),
+              2e7);
+}
+
 }  // namespace pyroscene::scenario

@@ -174,6 +174,7 @@ plume: {top_m: 500, heat_of_combustion_J_kg: 1.8e7}
                      "scenario.yaml:10: fire.front_depth.residence_time_s has no effect: the depth follows the heat flux",
                      "scenario.yaml:11: flame.temperature_K has no effect: there are no flames",
                      "scenario.yaml:15: plume.top_m has no effect: there is no plume",
+                     "scenario.yaml:15: plume.heat_of_combustion_J_kg has no effect: there is no plume",
                      "scenario.yaml:13: surface.burned has no effect: one emissivity stands for all ground",
                      "scenario.yaml:12: atmosphere.visibility_km has no effect: there is no air",
                      "scenario.yaml:14: render.light_bounces has no effect: flames throw no light on the ground"}));
