@@ -76,6 +76,29 @@ TEST(SensorsCommand, TellsPixelsAnglesAndCounts) {
     holds("viirs-snpp", "folds over beyond ");
 }
 
+// The numbers of the text, in the units of their names, for programs.
+TEST(SensorsCommand, TellsTheSameAsJson) {
+    const auto sensor = [](const std::string& id) {
+        return nlohmann::json::parse(pyroscene_cli("sensors " + id + " --json").output);
+    };
+    const auto avhrr = sensor("avhrr3-noaa18"), lac = avhrr.at("groups").at(0);
+    EXPECT_EQ(avhrr.at("orbit").at("height_m"), 833e3);
+    EXPECT_EQ(lac.at("samples"), 2048);
+    EXPECT_EQ(lac.at("scan").at("law"), "mirror");
+    EXPECT_EQ(lac.at("scan").at("lines_per_scan"), 1);
+    EXPECT_NEAR(lac.at("scan").at("period_s").get<double>(), 1.0 / 6.0, 1e-9);
+    EXPECT_NEAR(lac.at("scan").at("step_across_rad").get<double>(), 0.944e-3, 1e-12);
+    EXPECT_NEAR(lac.at("scan").at("step_along_rad").get<double>(), 1.3e-3, 1e-12);
+    EXPECT_TRUE(lac.at("ifov_rad").is_null());
+    const auto red = avhrr.at("bands").at(0);
+    EXPECT_EQ(red.at("bits"), 10);
+    EXPECT_EQ(red.at("sensitive_range_share_of_counts"), 0.5);
+    EXPECT_EQ(red.at("noise"), (nlohmann::json{{"kind", "snr_at_albedo"}, {"value", 9.0}, {"at_albedo", 0.005}}));
+    EXPECT_NEAR(sensor("wasp").at("groups").at(0).at("ifov_rad").get<double>(), 1e-3, 1e-12);
+    EXPECT_EQ(sensor("slstr-s3a").at("groups").at(0).at("views").size(), 2U);
+    EXPECT_EQ(sensor("viirs-snpp").at("groups").at(0).at("scan").at("zones").at(0).at("positions_per_pixel"), 3);
+}
+
 TEST(SensorsCommand, DrawsResponses) {
     const ScratchFolder scratch;
     const auto file = scratch / "responses.png";
