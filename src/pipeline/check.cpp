@@ -4,10 +4,12 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "pipeline/acquisition.h"
+#include "pipeline/footprints.h"
 #include "pipeline/ground_reflectance.h"
 #include "pipeline/plume_scene.h"
 #include "pipeline/run.h"
@@ -65,16 +67,32 @@ std::string wavelengths_text(const radiometry::SpectralGrid& grid, const std::ve
 
 std::string two_digits(double value) { return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value); }
 
+bool has_smoke(const Scenario& s) { return s.inputs.plume || s.plume.rise || !s.plume.layers.empty(); }
+
 /// Of the files that a render writes: floats, and doubles for the geolocation.
 double bytes_per_pixel(const Scenario& s, double bands) {
-    const bool smoke = s.inputs.plume || s.plume.rise || !s.plume.layers.empty();
-    const double terms = render::kTermCount - (smoke ? 0 : render::kSmokeTermCount);
+    const double terms = render::kTermCount - (has_smoke(s) ? 0 : render::kSmokeTermCount);
     constexpr double kGeolocation = 9.0, kTruth = 9.0;  // bands; kTruth: fractions, temperatures, exitance, coverage
     return 4.0 * bands + 8.0 * kGeolocation + (s.products.truth ? 4.0 * (kTruth + bands * (terms + 2.0)) : 0.0);
 }
 
+/// Of the rays that every pixel has; the rest depends on what burns.
+struct Cost {
+    double seconds = 0.0;      ///< of one core
+    bool wide_pixels = false;  ///< that get more rays where fire burns
+};
+
+/// What the estimate leaves out.
+std::string not_counted(const Scenario& s, const Cost& cost) {
+    std::vector<std::string> parts;
+    if (cost.wide_pixels) parts.emplace_back("more rays for fire in wide pixels");
+    if (s.render.flame_light && !s.flame.off) parts.emplace_back("light of flames");
+    if (has_smoke(s)) parts.emplace_back("smoke");
+    return parts.empty() ? "" : fmt::format("; not counted: {}", fmt::join(parts, ", "));
+}
+
 std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in, const std::optional<OpticalTables>& tables,
-                                const scenario::Acquisition& a, double& seconds) {
+                                const scenario::Acquisition& a, Cost& cost) {
     const auto sensor = sensors::load_sensor(a.sensor);
     std::string out;
     const std::size_t frame = inputs::frame_at(in.frames, a.time_s, a.id);
@@ -94,13 +112,17 @@ std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in
         const double rays_per_pixel = point ? 1.0 : s.render.samples_per_axis * s.render.samples_per_axis;
         const double pixels = static_cast<double>(geometry.samples) * geometry.lines, n = grid.size();
         const double cost_s = pixels * (rays_per_pixel * (kRay_s + kRayWavelength_s * n) + kPixelWavelength_s * n);
-        seconds += cost_s;
+        cost.seconds += cost_s;
+        const double width_m = pixel_width_m(geometry, in.mean_height_m);
+        const bool wide = !point && width_m > in.grid.cell_m;
+        cost.wide_pixels = cost.wide_pixels || wide;
         const double megabytes = 1e-6 * pixels * bytes_per_pixel(s, static_cast<double>(responses.size()));
         out += fmt::format(
-            "  {}: {} group {}, {} x {} pixels, {}, {:.0f} rays per pixel, fire state of {:g} s, about {} s of one core; "
+            "  {}: {} group {}, {} x {} pixels, {}, {:.0f} rays per pixel{}, fire state of {:g} s, about {} s of one core; "
             "radiance, geolocation and truth of {} MB before compression\n",
             a.id, sensor.id, id, geometry.samples, geometry.lines, wavelengths_text(grid, responses), rays_per_pixel,
-            in.frames[frame].time_s, two_digits(cost_s), two_digits(megabytes));
+            wide ? fmt::format(" and many more where fire burns in its {:.0f} m", width_m) : "", in.frames[frame].time_s,
+            two_digits(cost_s), two_digits(megabytes));
     }
     return out;
 }
@@ -121,10 +143,10 @@ CheckResult check(const Scenario& scenario) {
     check_rasters(scenario, in, result);
     std::optional<OpticalTables> tables;
     if (!scenario.acquisitions.empty()) passes(result, [&] { tables = load_optical_tables(scenario, in); });
-    double seconds = 0.0;
+    Cost cost;
     std::string acquisitions;
     for (const auto& a : scenario.acquisitions)
-        passes(result, [&] { acquisitions += acquisition_summary(scenario, in, tables, a, seconds); });
+        passes(result, [&] { acquisitions += acquisition_summary(scenario, in, tables, a, cost); });
     if (!result.problems.empty()) return result;
     result.warnings = scenario_warnings(scenario, in);
     const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
@@ -132,10 +154,10 @@ CheckResult check(const Scenario& scenario) {
     result.summary = fmt::format(
         "{}: ready to run\n  map: {} x {} cells of {:g} m, terrain {:.0f} to {:.0f} m, centre {:.4f} N {:.4f} E\n  frames: "
         "{} ({:g} s to {:g} s)\n{}"
-        "  estimated rendering time: {:.1f} s on {} cores\n",
+        "  estimated rendering time: {:.1f} s on {} cores{}\n",
         scenario.name, in.grid.cols, in.grid.rows, in.grid.cell_m, in.lowest_m, in.highest_m, in.centre.lat_deg,
         in.centre.lon_deg, in.frames.size(), in.frames.front().time_s, in.frames.back().time_s, acquisitions,
-        seconds / cores, cores);
+        cost.seconds / cores, cores, not_counted(scenario, cost));
     return result;
 }
 

@@ -115,6 +115,13 @@ void add_group(const scenario::Acquisition& a, const inputs::SceneInputs& in, co
 
 }  // namespace
 
+double pixel_width_m(const sensors::ImageGeometry& image, double ground_height_m) {
+    const Ground ground{image, ground_height_m};
+    const auto left = ground.at(image.samples / 2, image.lines / 2, -0.5, 0.0),
+               right = ground.at(image.samples / 2, image.lines / 2, 0.5, 0.0);
+    return left && right ? distance_m(*left, *right) : 0.0;
+}
+
 std::string footprints_geojson(const scenario::Scenario& scenario) {
     const auto in = inputs::load_scene_inputs(scenario);
     json features = json::array();

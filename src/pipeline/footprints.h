@@ -3,6 +3,7 @@
 #include <string>
 
 #include "scenario/scenario.h"
+#include "sensors/image_geometry.h"
 
 namespace pyroscene::pipeline {
 
@@ -12,5 +13,8 @@ namespace pyroscene::pipeline {
 /// sample, line, time, view zenith and its size on the ground across and along the line. `over: fire` counts as the centre
 /// of the map. Points beyond the horizon are left out. Throws an input error as resolve_geometry() does.
 std::string footprints_geojson(const scenario::Scenario& scenario);
+
+/// What the middle pixel of an image spans on ground of one height, along its line [m]; 0 when it does not see that ground.
+double pixel_width_m(const sensors::ImageGeometry& image, double ground_height_m);
 
 }  // namespace pyroscene::pipeline

@@ -33,8 +33,7 @@ std::vector<Rule> rules(const config::Node& root, const Scenario& s) {
         return Rule{height != method, "fire.flame_height", std::move(keys), fmt::format("the method is '{}'", height)};
     };
     const bool grey = s.flame.grey_absorption_per_m.has_value();
-    const bool plume =
-        s.plume.rise || s.inputs.plume || !s.plume.layers.empty() || (s.inputs.wrf_sfire && s.inputs.wrf_sfire->plume);
+    const bool plume = s.plume.rise || s.inputs.plume || !s.plume.layers.empty();
     using Shape = fire::TemperatureProfile::Shape;
     return {
         of_method("heat_flux", {"alpha", "volumetric_heat_release_W_m3"}),

@@ -125,6 +125,26 @@ TEST(Calc, FlameEmissivityPlotsItsSpectrum) {
     EXPECT_EQ(pyroscene_cli("calc flame-emissivity --temperature_K 1100 --plot " + file).exit_code, 3);
 }
 
+// 855 m of VIIRS hold whole cells of 30 m, 3 m of WASP do not: the estimate says which images take more where fire burns.
+TEST(Check, SaysWhatItsEstimateLeavesOut) {
+    const auto scenario = [](const char* file) { return (source_folder() / "scenarios" / file).string(); };
+    const auto output = pyroscene_cli("check " + scenario("lolo_peak/scanners.yaml")).output;
+    const auto line_of = [&](const std::string& text) {
+        const auto at = output.find(text);
+        return at == std::string::npos ? "" : output.substr(at, output.find('\n', at) - at);
+    };
+    EXPECT_NE(line_of("viirs-snpp group m").find("9 rays per pixel and many more where fire burns in its 8"),
+              std::string::npos)
+        << output;
+    EXPECT_EQ(line_of("wasp group ir").find("many more"), std::string::npos) << output;
+    EXPECT_NE(line_of("estimated rendering time").find("not counted: more rays for fire in wide pixels, light of flames"),
+              std::string::npos)
+        << output;
+    const auto narrow = pyroscene_cli("check " + scenario("minimal/scenario.yaml"));
+    EXPECT_EQ(narrow.exit_code, 0) << narrow.output;
+    EXPECT_EQ(narrow.output.find("wide pixels"), std::string::npos) << narrow.output;
+}
+
 TEST(Sensors, ListAndDetails) {
     const auto list = pyroscene_cli("sensors");
     EXPECT_EQ(list.exit_code, 0);
