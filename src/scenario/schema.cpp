@@ -22,7 +22,7 @@ constexpr const char* kSchema = R"json({
       "additionalProperties": false,
       "properties": {
         "crs": {"type": "string", "description": "projected CRS, anything PROJ understands", "examples": ["EPSG:32611"]},
-        "cell_m": {"type": "number", "minimum": 0.1, "maximum": 10000}
+        "cell_m": {"$ref": "#/$defs/cell_m"}
       }
     },
     "geoid_undulation_m": {"type": "number", "minimum": -120, "maximum": 120, "default": 0,
@@ -313,13 +313,22 @@ constexpr const char* kSchema = R"json({
 
 /// What several keys refer to.
 constexpr const char* kDefinitions =
-    R"json(    "file_or_files": {"oneOf": [{"type": "string"}, {"type": "array", "minItems": 1, "items": {"type": "string"}}]},
+    R"json(    "file_or_files": {"oneOf": [{"type": "string"}, {"$ref": "#/$defs/files"}]},
+    "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
     "name": {"type": "string", "maxLength": 100, "pattern": "^[A-Za-z0-9][A-Za-z0-9._-]*$"},
     "words": {"type": "array", "minItems": 1, "items": {"type": "string"}},
     "temperature_K": {"type": "number", "minimum": 200, "maximum": 3500},
     "mole_fraction": {"type": "number", "minimum": 0, "maximum": 1},
     "wind_speed": {"type": "number", "minimum": 0, "maximum": 100, "description": "m s-1"},
     "band": {"type": "integer", "minimum": 1, "maximum": 65535, "description": "counted from 1"},
+    "bands": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/band"}},
+    "cell_m": {"type": "number", "minimum": 0.1, "maximum": 10000},
+    "cells": {"type": "integer", "minimum": 1, "maximum": 100000},
+    "map_coordinate_m": {"type": "number", "minimum": -1e8, "maximum": 1e8},
+    "offset_s": {"type": "number", "minimum": -1e8, "maximum": 1e8},
+    "fuel_table": {"type": "string", "examples": ["fbfm13", "fbfm40", "fbfm53"]},
+    "custom_fuel": {"type": "string", "description": "CSV file of more fuel models"},
+    "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"},
     "fuel": {
       "description": "fuel model of each cell",
       "type": "object",
@@ -328,10 +337,9 @@ constexpr const char* kDefinitions =
       "properties": {
         "file": {"type": "string"},
         "band": {"$ref": "#/$defs/band"},
-        "table": {"type": "string", "description": "which codes: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
-          "examples": ["fbfm13", "fbfm40", "fbfm53"]},
-        "custom": {"type": "string", "description": "CSV file of more fuel models"},
-        "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"}
+        "table": {"$ref": "#/$defs/fuel_table", "description": "which codes: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models"},
+        "custom": {"$ref": "#/$defs/custom_fuel"},
+        "nonburnable": {"$ref": "#/$defs/nonburnable"}
       }
     },
     "times_s": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},
@@ -363,9 +371,9 @@ constexpr const char* kDefinitions =
       "oneOf": [{"required": ["file"]}, {"required": ["files"]}],
       "properties": {
         "file": {"type": "string"},
-        "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+        "files": {"$ref": "#/$defs/files"},
         "band": {"$ref": "#/$defs/band"},
-        "bands": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/band"}},
+        "bands": {"$ref": "#/$defs/bands"},
         "times_s": {"$ref": "#/$defs/times_s"}
       }
     }

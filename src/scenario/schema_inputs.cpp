@@ -64,19 +64,19 @@ std::string main_keys() {
       "additionalProperties": false,
       "properties": {
         "file": {"type": "string", "description": "raster of several frames; FDS: index of the run (.smv)"},
-        "files": {"type": "array", "minItems": 1, "items": {"type": "string"}, "description": "QUIC-Fire: one per moment"},
+        "files": {"$ref": "#/$defs/files", "description": "QUIC-Fire: one per moment"},
         "band": {"$ref": "#/$defs/band"},
-        "bands": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/band"}},
+        "bands": {"$ref": "#/$defs/bands"},
         "times_s": {"$ref": "#/$defs/times_s"},
         "model": {"enum": ["quic-fire", "fds"], "description": "without it: rasters"},
         "crs": {"type": "string", "description": "projected, metres; of the program's coordinates"},
-        "west_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "their origin"},
-        "south_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "their origin"},
-        "cols": {"type": "integer", "minimum": 1, "maximum": 100000},
-        "rows": {"type": "integer", "minimum": 1, "maximum": 100000},
-        "cell_m": {"type": "number", "minimum": 0.1, "maximum": 10000},
+        "west_m": {"$ref": "#/$defs/map_coordinate_m", "description": "their origin"},
+        "south_m": {"$ref": "#/$defs/map_coordinate_m", "description": "their origin"},
+        "cols": {"$ref": "#/$defs/cells"},
+        "rows": {"$ref": "#/$defs/cells"},
+        "cell_m": {"$ref": "#/$defs/cell_m"},
         "quantity": {"type": "string", "description": "FDS; without it: HRRPUA, else HRRPUV"},
-        "offset_s": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "of the program's clock: its 0 is so long after start"}
+        "offset_s": {"$ref": "#/$defs/offset_s", "description": "of the program's clock: its 0 is so long after start"}
       }
     },
     "landscape": {
@@ -86,10 +86,9 @@ std::string main_keys() {
       "required": ["file", "scheme"],
       "properties": {
         "file": {"type": "string"},
-        "scheme": {"type": "string", "description": "what the fuel codes count: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models",
-          "examples": ["fbfm13", "fbfm40", "fbfm53"]},
-        "custom": {"type": "string", "description": "CSV file of more fuel models"},
-        "nonburnable": {"type": "array", "items": {"type": "integer"}, "description": "further codes without fire"},
+        "scheme": {"$ref": "#/$defs/fuel_table", "description": "what the fuel codes count: fbfm13, fbfm40, fbfm53 (both), or a CSV file of fuel models"},
+        "custom": {"$ref": "#/$defs/custom_fuel"},
+        "nonburnable": {"$ref": "#/$defs/nonburnable"},
         "crs": {"type": "string", "description": "of a file that does not say its own"}
       }
     })json";
@@ -102,7 +101,7 @@ std::string wind_keys() {
       "additionalProperties": false,
       "properties": {
         "file": {"type": "string"},
-        "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+        "files": {"$ref": "#/$defs/files"},
         "bands": {
           "description": "u, v of each frame; [u, v] = as stored: 1, 2 (3, 4, ...)",
           "oneOf": [{"const": ["u", "v"]},
@@ -151,25 +150,25 @@ std::string fire_keys() {
           "oneOf": [{"required": ["file"]}, {"required": ["files"]}],
           "properties": {
             "file": {"type": "string"}, "band": {"$ref": "#/$defs/band"},
-            "files": {"type": "array", "minItems": 1, "items": {"type": "string"}, "description": "ForestGridNN.csv of Cell2Fire, mburnt_integ-TTTTT.bin of QUIC-Fire"},
+            "files": {"$ref": "#/$defs/files", "description": "ForestGridNN.csv of Cell2Fire, mburnt_integ-TTTTT.bin of QUIC-Fire"},
             "unit": {"enum": [)json" +
            quoted(kTimeUnits) + R"json(]},
             "period": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e5, "description": "of Cell2Fire, in 'unit'; without it: 1"}
           }},
         "like": {"type": "string", "description": "raster of the cells of Cell2Fire (its fuels.asc)"},
         "crs": {"type": "string", "description": "of rasters that do not say their own; of the place of QUIC-Fire and FDS"},
-        "west_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "x of the origin of QUIC-Fire or FDS"},
-        "south_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "y of the origin of QUIC-Fire or FDS"},
-        "cols": {"type": "integer", "minimum": 1, "maximum": 100000, "description": "nx of QUIC-Fire"},
-        "rows": {"type": "integer", "minimum": 1, "maximum": 100000, "description": "ny of QUIC-Fire"},
-        "cell_m": {"type": "number", "minimum": 0.1, "maximum": 10000, "description": "dx of QUIC-Fire"},
+        "west_m": {"$ref": "#/$defs/map_coordinate_m", "description": "x of the origin of QUIC-Fire or FDS"},
+        "south_m": {"$ref": "#/$defs/map_coordinate_m", "description": "y of the origin of QUIC-Fire or FDS"},
+        "cols": {"$ref": "#/$defs/cells", "description": "nx of QUIC-Fire"},
+        "rows": {"$ref": "#/$defs/cells", "description": "ny of QUIC-Fire"},
+        "cell_m": {"$ref": "#/$defs/cell_m", "description": "dx of QUIC-Fire"},
         "fireline_intensity": )json" +
            unit_raster(kIntensityUnits) + R"json(,
         "flame_length": )json" +
            unit_raster(kLengthUnits) + R"json(,
         "spread_rate": )json" +
            unit_raster(kRateUnits) + R"json(,
-        "offset_s": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "start of the model's clock after 'start'; without it: 0"},
+        "offset_s": {"$ref": "#/$defs/offset_s", "description": "start of the model's clock after 'start'; without it: 0"},
         "fuel": {"$ref": "#/$defs/fuel"},
         "fuel_moisture_pct": {"type": "number", "minimum": 0, "maximum": 300, "description": "without it: 8"},
 )json" + std::string(kFrameKeys) +
@@ -179,15 +178,15 @@ std::string fire_keys() {
       "description": "history files of WRF-SFIRE or WRF-Fire, one or several; inputs beside them go before theirs",
       "oneOf": [
         {"type": "string"},
-        {"type": "array", "minItems": 1, "items": {"type": "string"}},
+        {"$ref": "#/$defs/files"},
         {"type": "object",
          "additionalProperties": false,
          "properties": {
            "file": {"type": "string"},
-           "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+           "files": {"$ref": "#/$defs/files"},
            "crs": {"type": "string", "description": "projected, metres; of an idealised run, which has none"},
-           "west_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "its western edge"},
-           "south_m": {"type": "number", "minimum": -1e8, "maximum": 1e8, "description": "its southern edge"},
+           "west_m": {"$ref": "#/$defs/map_coordinate_m", "description": "its western edge"},
+           "south_m": {"$ref": "#/$defs/map_coordinate_m", "description": "its southern edge"},
            "plume": {"type": "boolean", "description": "hot air above the fire from its heating RTHFRTEN; without it: false"},
            "fuel_table": {"type": "string", "description": "what NFUEL_CAT counts: fbfm13, fbfm40 or a CSV file code,surface"}
          }}
@@ -231,7 +230,7 @@ std::string spread_keys() {
             "mwoody_pct": {"$ref": "#/$defs/moisture_pct"},
             "table": {"type": "string", "description": "CSV: time_s and the moistures that have no number"},
             "file": {"type": "string", "description": "five bands for each moment, in the order of the keys"},
-            "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+            "files": {"$ref": "#/$defs/files"},
             "bands": {"type": "array", "minItems": 5, "items": {"$ref": "#/$defs/band"}},
             "times_s": {"$ref": "#/$defs/times_s"}
           }
@@ -265,7 +264,7 @@ std::string other_keys() {
       "required": ["levels_m"],
       "properties": {
         "file": {"type": "string"},
-        "files": {"type": "array", "minItems": 1, "items": {"type": "string"}},
+        "files": {"$ref": "#/$defs/files"},
         "times_s": {"$ref": "#/$defs/times_s"},
         "levels_m": {"type": "array", "minItems": 1, "items": {"type": "number", "minimum": 0},
           "description": "heights above the terrain, ascending, one per band"},
@@ -281,7 +280,7 @@ std::string other_keys() {
       "properties": {
         "file": {"type": "string"},
         "band": {"$ref": "#/$defs/band"},
-        "table": {"type": "string", "description": "fbfm13, fbfm40, fbfm53 or a CSV file", "examples": ["fbfm13", "fbfm40", "fbfm53"]}
+        "table": {"$ref": "#/$defs/fuel_table", "description": "fbfm13, fbfm40, fbfm53 or a CSV file"}
       }
     })json";
 }
