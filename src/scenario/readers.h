@@ -58,7 +58,7 @@ void check_flame_inputs(const config::Node& root, const Scenario& scenario);
 /// \param has_cover the inputs say the class of each cell, which `by_cover` needs
 void read_scar(const config::Node& node, const std::filesystem::path& folder, bool has_cover,
                fire::FireParameters& parameters);
-/// \param own_fuel  the scenario gives `fire` a heat of combustion, which is then that of the smoke's fuel too
+/// \param own_fuel  the heat flux is of a fuel whose heat of combustion the scenario gives in `fire`: the smoke's too
 PlumeSettings read_plume(const config::Node& node, const Inputs& inputs, const fire::FireParameters& fire, bool own_fuel);
 /// \param folder  of the scenario file
 PlumeSource read_plume_source(const config::Node& node, const std::filesystem::path& folder);

@@ -79,6 +79,12 @@ void read_head(const config::Node& root, Scenario& s) {
     s.seed = static_cast<std::uint64_t>(root.integer("seed", static_cast<long long>(s.seed), config::Range::not_negative()));
 }
 
+/// Of the fuel whose heat comes as rasters: WRF-SFIRE and the program's own fires have made theirs with a value of their own.
+bool gives_heat_of_combustion(const config::Node& root, const Inputs& inputs) {
+    const bool of_rasters = !inputs.spread && !inputs.arrival_model && !inputs.wrf_sfire;
+    return of_rasters && root.child("fire").has("heat_of_combustion_J_kg");
+}
+
 fire::Physics read_physics(const config::Node& root) {
     const bool thesis = root.choice("physics", "default", {"default", "thesis"}) == "thesis";
     return thesis ? fire::Physics::Thesis : fire::Physics::Default;
@@ -102,7 +108,7 @@ Scenario load(const fs::path& path) {
     check_flame_inputs(root, s);
     s.flame = read_flame(root.child("flame"), s.physics);
     s.flame.parameters.profile.air_K = s.fire.air_temperature_K;
-    s.plume = read_plume(root.child("plume"), s.inputs, s.fire, root.child("fire").has("heat_of_combustion_J_kg"));
+    s.plume = read_plume(root.child("plume"), s.inputs, s.fire, gives_heat_of_combustion(root, s.inputs));
     s.surface = read_surface(root.child("surface"), folder);
     s.atmosphere = read_atmosphere(root.child("atmosphere"), folder);
     s.render = read_render(root.child("render"), s.surface);

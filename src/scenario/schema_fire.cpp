@@ -52,7 +52,7 @@ std::string fire_sections() {
           }
         },
         "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 5e7, "default": 16515000,
-          "description": "low heat of the fuel: fireline intensity, burning rate, energy budget; if given, smoke too"},
+          "description": "low heat of the fuel: fireline intensity, burning rate, energy budget; given with heat_flux: smoke too"},
         "maximum_spread_rate_m_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 100, "default": 10},
         "fireline_intensity": {
           "type": "object",
@@ -146,7 +146,7 @@ std::string fire_sections() {
         "multiple_scattering": {"type": "boolean", "default": true, "description": "false: smoke scatters light once"},
         "emission_factor_g_kg": {"type": "number", "minimum": 0, "maximum": 1000, "default": 10},
         "heat_of_combustion_J_kg": {"type": "number", "minimum": 1e6, "maximum": 1e8,
-          "description": "turns heat back into fuel, for its smoke; default: fire.heat_of_combustion_J_kg if given, else 17.433e6"}
+          "description": "turns heat back into fuel, for its smoke; default: fire.heat_of_combustion_J_kg if given with heat_flux, else 17.433e6"}
       }
     },
     "scar": {

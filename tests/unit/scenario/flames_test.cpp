@@ -76,7 +76,8 @@ TEST(Plume, LayersOfSmokeAreRead) {
     EXPECT_FALSE(folder.load(shortest("plume: {model: rise, multiple_scattering: false}\n")).plume.multiple_scattering);
 }
 
-// The smoke of a fuel whose heat is given for the fire comes from that fuel, unless the plume names another.
+// The smoke of a fuel whose heat is given for the fire comes from that fuel, unless the plume names another, or the heat flux
+// was made with a value of its own.
 TEST(Plume, TakesTheHeatOfTheFiresFuel) {
     const ScenarioFolder folder;
     const auto heat_J_kg = [&](const std::string& keys) {
@@ -86,6 +87,12 @@ TEST(Plume, TakesTheHeatOfTheFiresFuel) {
     EXPECT_EQ(heat_J_kg("fire: {heat_of_combustion_J_kg: 1.8e7}\nplume: {model: rise}\n"), 1.8e7);
     EXPECT_EQ(heat_J_kg("fire: {heat_of_combustion_J_kg: 1.8e7}\nplume: {model: rise, heat_of_combustion_J_kg: 2e7}\n"),
               2e7);
+    EXPECT_EQ(folder
+                  .load("pyroscene: 1\ninputs: {wrf_sfire: heat.tif}\nstart: 2021-08-12T20:00:00Z\n"
+                        "acquisitions: [{id: a, sensor: wasp, time_s: 0, platform: {altitude_m: 3000}}]\n"
+                        "fire: {heat_of_combustion_J_kg: 1.8e7}\nplume: {model: rise}\n")
+                  .plume.parameters.heat_of_combustion_J_kg,
+              17.433e6);
 }
 
 }  // namespace pyroscene::scenario
