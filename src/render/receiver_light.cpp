@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/constants.h"
 #include "base/random.h"
@@ -10,17 +11,34 @@
 namespace pyroscene::render {
 namespace {
 
-constexpr double kPointsPerDirection = 0.75;  ///< in a cell near flame
-constexpr int kLeastPlanes = 8;               ///< through a flame however narrow it looks, or an eighth of all
-constexpr double kCompact = 0.3;              ///< share of the circle below which flame is looked for by its arcs
+constexpr double kPointsPerDirection = 0.75;    ///< in a cell near flame
+constexpr int kLeastPlanes = 8;                 ///< through each arc with flame
+constexpr double kCompact = 0.3;                ///< share of the circle below which flame is looked for by its arcs
+constexpr double kGolden = 0.6180339887498949;  ///< steps of it, modulo 1, spread evenly however many there are
 constexpr int kStrata = PlaneTrace::kLanes;
 constexpr float kLeastSlope = 1e-6F;
 constexpr double kOpaqueDepth = 9.0;
+
+double fraction_of(double x) noexcept { return x - std::floor(x); }
 
 /// Monotone stand-in for the azimuth of (dx, dy), 0 <= p < 4: the quadrant and the place in it. Spares the arc tangent.
 double diamond_angle(double dx, double dy) noexcept {
     if (dy >= 0.0) return dx >= 0.0 ? (dx + dy > 0.0 ? dy / (dx + dy) : 0.0) : 1.0 - dx / (dy - dx);
     return dx < 0.0 ? 2.0 - dy / (-dx - dy) : 3.0 + dx / (dx - dy);
+}
+
+/// From `direction` (1 or -1) along the circle to the next corner of a box seen from a point, in diamond angle. The box's
+/// depth grows from nothing at the edge of its silhouette to that corner.
+double to_next_corner(const FlameColumns::Box& box, double x_m, double y_m, double from, double direction) noexcept {
+    double least = 4.0;
+    for (const double corner_x : {box.west_m, box.east_m}) {
+        for (const double corner_y : {box.south_m, box.north_m}) {
+            const double turn = direction * (diamond_angle(corner_x - x_m, corner_y - y_m) - from);
+            const double away = 4.0 * fraction_of(turn / 4.0);
+            if (away > 1e-9) least = std::min(least, away);
+        }
+    }
+    return least;
 }
 
 double azimuth_of_diamond(double p) noexcept {
@@ -111,7 +129,7 @@ bool ReceiverLight::add_arc(const FlameColumns::Box& box, double x_m, double y_m
     const double begin = diamond_angle(first_x, first_y);
     double end = diamond_angle(last_x, last_y);
     if (end < begin) end += 4.0;
-    arcs_.push_back({begin, end});
+    arcs_.push_back({begin, end, &box, &box});
     return false;
 }
 
@@ -131,7 +149,7 @@ void ReceiverLight::find_arcs(double x_m, double y_m) {
         }
         for (std::size_t p = flame.first_part(b); p < flame.first_part(b + 1); ++p) {
             if (!add_arc(flame.parts()[p], x_m, y_m)) continue;
-            arcs_.assign(1, {0.0, 4.0});
+            arcs_.assign(1, kCircle);
             return;
         }
     }
@@ -146,19 +164,19 @@ void ReceiverLight::merge_arcs() {
     for (std::size_t i = 1; i < arcs_.size(); ++i) {
         Arc& last = arcs_[count - 1];
         if (arcs_[i].begin <= last.end)
-            last.end = std::max(last.end, arcs_[i].end);
+            last.reach(arcs_[i].end, arcs_[i].last);
         else
             arcs_[count++] = arcs_[i];
     }
     // Arcs that run over the zero swallow the first ones.
     std::size_t first = 0;
     while (first + 1 < count && arcs_[count - 1].end - 4.0 >= arcs_[first].begin) {
-        arcs_[count - 1].end = std::max(arcs_[count - 1].end, arcs_[first].end + 4.0);
+        arcs_[count - 1].reach(arcs_[first].end + 4.0, arcs_[first].last);
         ++first;
     }
     arcs_.resize(count);
     arcs_.erase(arcs_.begin(), arcs_.begin() + static_cast<std::ptrdiff_t>(first));
-    if (arcs_.back().end - arcs_.back().begin >= 4.0) arcs_.assign(1, {0.0, 4.0});
+    if (arcs_.back().end - arcs_.back().begin >= 4.0) arcs_.assign(1, kCircle);
 }
 
 void ReceiverLight::compute(const Receiver& receiver) {
@@ -190,41 +208,67 @@ void ReceiverLight::compute_cell(const Receiver& receiver) {
     const int points = std::max(8, static_cast<int>(kPointsPerDirection * shared_->settings.directions));
     find_arcs(receiver.x_m, receiver.y_m);
     double covered = 0.0;
-    for (const Arc arc : arcs_) covered += 0.25 * (arc.end - arc.begin);
+    for (const Arc& arc : arcs_) covered += 0.25 * (arc.end - arc.begin);
     const bool compact = covered < kCompact;
-    if (!compact) arcs_.assign(1, {0.0, 4.0});
+    if (!compact) arcs_.assign(1, kCircle);
     const auto place = [&](std::uint32_t axis, double step, int p) {
-        const double at = uniform01(key, receiver.cell, axis) + step * p;
-        return at - std::floor(at);
+        return fraction_of(uniform01(key, receiver.cell, axis) + step * p);
     };
     for (int p = 0; p < points; ++p) {
         const double x_m = receiver.x_m + (place(0, 0.7548776662466927, p) - 0.5) * cell_m;
         const double y_m = receiver.y_m + (place(1, 0.5698402909980532, p) - 0.5) * cell_m;
         const Vec3 from{x_m, y_m, shared_->scene.terrain->height_at(x_m, y_m)};
         if (compact) find_arcs(x_m, y_m);
-        for (const Arc arc : arcs_) {
+        for (const Arc& arc : arcs_) {
             const double begin = azimuth_of_diamond(arc.begin), half = 0.5 * (azimuth_of_diamond(arc.end) - begin);
-            const double azimuth = begin + half * place(2, 0.6180339887498949, p);
-            for (const double side : {0.0, half}) trace_plane(from, receiver, azimuth + side, half / points);
+            const double azimuth = begin + half * place(2, kGolden, p);
+            const double in_stratum = place(3, std::numbers::sqrt2, p);
+            trace_plane(from, receiver, azimuth, half / points, in_stratum);
+            trace_plane(from, receiver, azimuth + half, half / points, 1.0 - in_stratum);
         }
     }
 }
 
 void ReceiverLight::compute_centre(const Receiver& receiver) {
     const double x_m = receiver.x_m, y_m = receiver.y_m;
-    const int planes_around = shared_->settings.directions;
     find_arcs(x_m, y_m);
+    // As dense as all directions around the circle, but at least a quarter of them for all flame together.
+    double covered_rad = 0.0;
+    for (const Arc& arc : arcs_) covered_rad += azimuth_of_diamond(arc.end) - azimuth_of_diamond(arc.begin);
+    const double planes_per_rad = shared_->settings.directions / std::min(2.0 * kPi, 4.0 * covered_rad);
     const Vec3 from{x_m, y_m, shared_->scene.terrain->height_at(x_m, y_m)};
-    for (const Arc arc : arcs_) {
-        const double begin = azimuth_of_diamond(arc.begin), end = azimuth_of_diamond(arc.end);
-        const int planes = std::max({kLeastPlanes, planes_around / kLeastPlanes,
-                                     static_cast<int>(std::ceil((end - begin) / (2.0 * kPi) * planes_around - 1e-9))});
-        const double width = (end - begin) / planes;
-        for (int p = 0; p < planes; ++p) trace_plane(from, receiver, begin + (p + 0.5) * width, width);
+    for (const Arc& arc : arcs_) {
+        // The flame's depth grows at the edges of the arc: these parts get planes of their own, or narrow ones would be missed.
+        std::array<double, 4> cut{arc.begin, arc.begin, arc.end, arc.end};
+        if (arc.first != nullptr) {
+            cut[1] = std::min(arc.begin + to_next_corner(*arc.first, x_m, y_m, arc.begin, 1.0), arc.end);
+            cut[2] = std::max(arc.end - to_next_corner(*arc.last, x_m, y_m, arc.end, -1.0), arc.begin);
+            if (cut[1] > cut[2]) std::swap(cut[1], cut[2]);
+        }
+        for (double& c : cut) c = azimuth_of_diamond(c);
+        const double all = cut[3] - cut[0];
+        const int planes = std::max(kLeastPlanes, static_cast<int>(std::ceil(all * planes_per_rad - 1e-9)));
+        const auto share = [&](double width) {
+            return width > 0.0 ? std::max(1, static_cast<int>(std::lround(width / all * planes))) : 0;
+        };
+        const int first = share(cut[1] - cut[0]), last = share(cut[3] - cut[2]);
+        trace_planes(from, receiver, cut[0], cut[1], first);
+        trace_planes(from, receiver, cut[1], cut[2], cut[2] > cut[1] ? std::max(1, planes - first - last) : 0);
+        trace_planes(from, receiver, cut[2], cut[3], last);
     }
 }
 
-void ReceiverLight::trace_plane(Vec3 from_m, const Receiver& receiver, double azimuth, double weight) {
+/// Planes through the middles of equal parts of a range of azimuths. Those at equal distances from its middle look at places of
+/// their strata that mirror each other; together they see each stratum at as many places as there are planes.
+void ReceiverLight::trace_planes(Vec3 from_m, const Receiver& receiver, double begin, double end, int count) {
+    const double width = (end - begin) / count;
+    for (int p = 0; p < count; ++p) {
+        const double from_middle = p + 0.5 - 0.5 * count;
+        trace_plane(from_m, receiver, begin + (p + 0.5) * width, width, fraction_of(0.5 + kGolden * from_middle));
+    }
+}
+
+void ReceiverLight::trace_plane(Vec3 from_m, const Receiver& receiver, double azimuth, double weight, double in_stratum) {
     const double dx = std::cos(azimuth), dy = std::sin(azimuth);
     cross_columns(from_m, dx, dy);
     if (columns_.empty()) return;
@@ -239,7 +283,7 @@ void ReceiverLight::trace_plane(Vec3 from_m, const Receiver& receiver, double az
     for (int s = 0; s < kStrata; ++s) {
         const auto i = static_cast<std::size_t>(s);
         const double up_to = plane.below(s + 1 == kStrata ? high : slope_of_measure(v_low + (s + 1) * v_step));
-        const auto slope = static_cast<float>(slope_of_measure(v_low + (s + 0.5) * v_step));
+        const auto slope = static_cast<float>(slope_of_measure(v_low + (s + in_stratum) * v_step));
         slopes[i] = std::abs(slope) < kLeastSlope ? kLeastSlope : slope;
         weights[i] = static_cast<float>(weight * (up_to - below));
         below = up_to;

@@ -42,7 +42,13 @@ private:
     /// Part of the circle of azimuths, in diamond angle (0 to 4 and beyond), that flames stand in.
     struct Arc {
         double begin, end;
+        const FlameColumns::Box *first, *last;  ///< whose edges begin and end are; null: flame stands on the receiver
+
+        void reach(double other_end, const FlameColumns::Box* box) noexcept {
+            if (other_end > end) end = other_end, last = box;
+        }
     };
+    static constexpr Arc kCircle{0.0, 4.0, nullptr, nullptr};
 
     [[nodiscard]] bool is_near_flame(const Receiver& receiver) const;
     void compute_cell(const Receiver& receiver);
@@ -50,7 +56,9 @@ private:
     void find_arcs(double x_m, double y_m);
     bool add_arc(const FlameColumns::Box& box, double x_m, double y_m);
     void merge_arcs();
-    void trace_plane(Vec3 from_m, const Receiver& receiver, double azimuth, double weight);
+    void trace_planes(Vec3 from_m, const Receiver& receiver, double begin, double end, int count);
+    /// One plane; rays are sent `in_stratum` (0 to 1) of the way up through each stratum.
+    void trace_plane(Vec3 from_m, const Receiver& receiver, double azimuth, double weight, double in_stratum);
     void cross_columns(Vec3 from_m, double dx, double dy);
     void find_horizons(Vec3 from_m, double dx, double dy);
     [[nodiscard]] bool slopes_of_flame(Vec3 from_m, double& low, double& high) const;
