@@ -91,6 +91,7 @@ void SmokySky::look_from(const SmokeShade& shade) {
     const auto spread = [&](const float* nodes, std::vector<float>& out) {
         std::fill(out.begin(), out.end(), 0.0F);
         kernels_->add_rows(t.stride, diffusion.weight.data(), t.stride, DiffusionNodes::kCount, nodes, out.data());
+        for (float& share : out) share = std::max(share, 0.0F);  // cubics may undershoot where there is nothing
     };
     spread(at_nodes.sky, through_);
     spread(at_nodes.ground, back_);

@@ -96,7 +96,7 @@ TEST(Smoke, FurnaceStaysBlackThroughScatteringSmoke) {
                     for (const double view : {0.0, 0.6}) {
                         const auto radiance = trace(scene, ray_from(view, 1.0), &light);
                         for (std::size_t b = 1; b < kLambda_um.size(); ++b)
-                            EXPECT_NEAR(radiance[b] / radiometry::planck_radiance(kLambda_um[b], T_K), 1.0, 2e-5)
+                            EXPECT_NEAR(radiance[b] / radiometry::planck_radiance(kLambda_um[b], T_K), 1.0, 1e-5)
                                 << kLambda_um[b] << " um " << T_K << " K depth " << depth << " albedo " << albedo;
                     }
                 }
