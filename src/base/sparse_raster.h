@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -48,7 +49,8 @@ public:
     void set(std::size_t cell, T value) {
         std::int32_t& run = run_of_cells_[cell / kRun];
         if (run < 0) {
-            if (value == fill_ || (value != value && fill_ != fill_)) return;
+            const auto nothing = [](T v) { return std::isnan(static_cast<double>(v)); };
+            if (value == fill_ || (nothing(value) && nothing(fill_))) return;
             run = static_cast<std::int32_t>(values_.size() / kRun);
             values_.resize(values_.size() + kRun, fill_);
         }
