@@ -141,6 +141,7 @@ struct Column {
 std::vector<std::string> wrf_plume_variables() { return {"RTHFRTEN", "U", "V", "W", "PH", "PHB", "MU", "MUB"}; }
 
 double wrf_heating_W(const WrfSfire& wrf, const WrfMoment& moment) {
+    // Dry air of 1000 hPa and 317 K; cp as WRF has it, 7/2 of 287 J kg-1 K-1.
     constexpr double kAir_kg_m3 = 1.1, kHeat_J_kg_K = 1004.5;
     const NetcdfFile file(moment.file);
     const Fields fields(file, wrf, moment.record);
