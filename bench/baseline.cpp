@@ -10,7 +10,6 @@
 namespace pyroscene::bench {
 namespace {
 
-constexpr int kDirections = 64;
 constexpr int kLayers = 64;
 
 /// Dense array of the field's temperatures.
@@ -125,10 +124,11 @@ float Baseline::march(Vec3 from_m, Vec3 direction, float* radiance) const {
     return tau;
 }
 
-std::vector<float> Baseline::cell_irradiance() const {
+std::vector<float> Baseline::cell_irradiance(int count) const {
+    const int across = static_cast<int>(std::lround(std::sqrt(count)));
     std::vector<Vec3> directions;
-    for (int n = 0; n < kDirections; ++n) {  // 8 x 8 strata of (sin^2 elevation, azimuth)
-        const double s = (n / 8 + 0.5) / 8.0, azimuth = 2.0 * kPi * (n % 8 + (n / 8 + 0.5) / 8.0) / 8.0;
+    for (int n = 0; n < count; ++n) {  // strata of (sin^2 elevation, azimuth)
+        const double s = (n / across + 0.5) / across, azimuth = 2.0 * kPi * (n % across + s) / across;
         directions.push_back({std::sqrt(1.0 - s) * std::cos(azimuth), std::sqrt(1.0 - s) * std::sin(azimuth), std::sqrt(s)});
     }
     std::vector<float> irradiance(ground_grid_.size() * static_cast<std::size_t>(bands_), 0.0F);
@@ -137,17 +137,17 @@ std::vector<float> Baseline::cell_irradiance() const {
             float* out = irradiance.data() + ground_grid_.index(row, col) * static_cast<std::size_t>(bands_);
             const Vec3 at{ground_grid_.x_centre_m(col) - origin_m_.x, ground_grid_.y_centre_m(row) - origin_m_.y, 1e-3};
             for (const Vec3& direction : directions) march(at, direction, out);
-            for (int b = 0; b < bands_; ++b) out[b] *= static_cast<float>(kPi / kDirections);
+            for (int b = 0; b < bands_; ++b) out[b] *= static_cast<float>(kPi / count);
         }
     }
     return irradiance;
 }
 
-BaselineResult Baseline::render(const W0Camera& camera, bool reflected_light) const {
+BaselineResult Baseline::render(const W0Camera& camera, int directions) const {
     BaselineResult result{camera.samples, camera.lines, bands_, {}};
     const std::size_t plane = static_cast<std::size_t>(camera.samples) * static_cast<std::size_t>(camera.lines);
     result.radiance_W_m2_sr_um.resize(plane * static_cast<std::size_t>(bands_));
-    const std::vector<float> irradiance = reflected_light ? cell_irradiance() : std::vector<float>();
+    const std::vector<float> irradiance = directions > 0 ? cell_irradiance(directions) : std::vector<float>();
     constexpr int kTile = 64;
     std::vector<float> tile(static_cast<std::size_t>(kTile * bands_));
     const auto emissivity = static_cast<float>(1.0 - reflectance_), per_pi = static_cast<float>(reflectance_ / kPi);
@@ -164,7 +164,7 @@ BaselineResult Baseline::render(const W0Camera& camera, bool reflected_light) co
                 const std::size_t cell = ground_grid_.index(static_cast<int>(ground_grid_.row_at(ground.y + origin_m_.y)),
                                                             static_cast<int>(ground_grid_.col_at(ground.x + origin_m_.x)));
                 add_planck(ground_K_[cell], tau * emissivity, radiance);
-                if (reflected_light) {
+                if (directions > 0) {
                     const float* light = irradiance.data() + cell * static_cast<std::size_t>(bands_);
                     for (int b = 0; b < bands_; ++b) radiance[b] += tau * per_pi * light[b];
                 }

@@ -8,7 +8,7 @@ namespace pyroscene::bench {
 
 /// The comparison peer: what one writes down first, kept simple and honest. A dense voxel array, one three-dimensional
 /// traversal per ray, one exp per step, a table of Planck spectra with one row per kelvin and linear interpolation, flat
-/// ground by a division, the result as [band][line][sample]. With light: every ground cell gathers a fixed set of 64
+/// ground by a division, the result as [band][line][sample]. With light: every ground cell gathers a fixed set of
 /// cosine-weighted directions once (cached per cell). One thread, no terrain mesh, no bricks.
 struct BaselineResult {
     int samples = 0, lines = 0, bands = 0;
@@ -18,14 +18,15 @@ struct BaselineResult {
 class Baseline {
 public:
     explicit Baseline(const W0Scene& scene, double reflectance);
-    /// \param reflected_light  adds the light of the flames that the ground reflects once
-    [[nodiscard]] BaselineResult render(const W0Camera& camera, bool reflected_light) const;
+    /// \param directions  of each ground cell in which the light of flames is gathered that it reflects once, the square of a
+    ///        whole number; 0 = without that light
+    [[nodiscard]] BaselineResult render(const W0Camera& camera, int directions) const;
 
 private:
     /// Radiance of the flame along a ray and its transmittance; stops at the ground (z = 0) or the end of the grid.
     float march(Vec3 from_m, Vec3 direction, float* radiance) const;
     void add_planck(float temperature_K, float weight, float* radiance) const;
-    [[nodiscard]] std::vector<float> cell_irradiance() const;
+    [[nodiscard]] std::vector<float> cell_irradiance(int count) const;
 
     int nx_, ny_, nz_, bands_;
     double dx_m_, dz_m_;

@@ -1,6 +1,7 @@
 // Whole frames of scene W0, printed as rows of one markdown table (scripts/bench.sh prints its head):
 //   | case | measured | compared with | ratio | limits | condition on the result |
-// Every figure is that of a process of its own; figures with a ratio are medians of alternate runs.
+// Every figure is that of a process of its own; figures with a ratio are medians of alternate runs. The product renders 16 lines
+// at a time, as a run does, unless a row says otherwise.
 //   bench_frames [--pairs N] [--only WORDS]      WORDS: part of a name in the first column, such as "B2 reflected flame light, 3"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@
 namespace pyroscene::bench {
 namespace {
 
-constexpr double kReflectance = 0.1;
+constexpr double kReflectance = 0.1, kReach_m = 3000.0;
 constexpr double kDirectMean = 338.50, kLitMean = 361.8;  // 4.0 um, W m-2 sr-1 um-1
 
 void row(std::string_view what, std::string_view measured, std::string_view compared = "", std::string_view ratio = "",
@@ -36,12 +37,14 @@ double cpu_s() {
            1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
+constexpr int kWholeImage = 1 << 20;
+
 struct Frame {
     int bands = 3;
-    bool light = false;
+    int planes = 0;  ///< GroundLightSettings::directions; 0 = without the light of flames
+    int lines_at_once = 16;
     W0Scene::Options scene{};
     W0Camera camera{};
-    int lines_at_once = 0;  ///< 0: the whole image
 };
 
 enum Result { kMean, kSetup_s, kLight_s, kRender_s, kInput_MB, kOutput_MB };
@@ -54,17 +57,17 @@ std::vector<double> render_frame(Frame frame) {
     const W0Scene scene(frame.scene);
     const double ready = cpu_s();
     render::GroundIrradiance light;
-    if (frame.light) light = render::ground_irradiance(scene.scene(), {.directions = 64, .reach_m = 3000.0});
+    if (frame.planes > 0)
+        light = render::ground_irradiance(scene.scene(), {.directions = frame.planes, .reach_m = kReach_m});
     const double lit = cpu_s();
     const render::RenderScene to_render = scene.scene();
     const render::ImageRequest request = frame.camera.request();
     const Monitor monitor;
-    render::ImageRenderer renderer(to_render, frame.light ? &light : nullptr, request, monitor);
+    render::ImageRenderer renderer(to_render, frame.planes > 0 ? &light : nullptr, request, monitor);
     render::RadianceImage image;
-    const int lines_at_once = frame.lines_at_once > 0 ? frame.lines_at_once : request.lines;
     double mean = 0.0;
-    for (int first = 0; first < request.lines; first += lines_at_once) {
-        renderer.render(first, std::min(lines_at_once, request.lines - first), image);
+    for (int first = 0; first < request.lines; first += frame.lines_at_once) {
+        renderer.render(first, std::min(frame.lines_at_once, request.lines - first), image);
         mean += mean_radiance(image, scene.lambda_um(), 4.0) * image.lines / request.lines;
     }
     const double done = cpu_s();
@@ -75,10 +78,10 @@ std::vector<double> render_frame(Frame frame) {
             done - lit, input_MB,      static_cast<double>(image.radiance_W_m2_sr_um.size() * sizeof(float)) / 1048576.0};
 }
 
-std::vector<double> baseline_frame(int bands, bool light) {
+std::vector<double> baseline_frame(int bands, int directions) {
     const W0Scene scene({.lambda_um = benchmark_wavelengths_um(bands), .reflectance = kReflectance});
     const Baseline baseline(scene, kReflectance);
-    const auto image = baseline.render({}, light);
+    const auto image = baseline.render({}, directions);
     double sum = 0.0;
     const auto lambda_um = scene.lambda_um();
     std::size_t band = 0;
@@ -96,51 +99,103 @@ std::string condition(double mean, double expected, double relative) {
 
 bool is_wanted(std::string_view name, std::string_view only) { return name.find(only) != std::string_view::npos; }
 
-void frames_against_baseline(int pairs, std::string_view only) {
-    for (const bool light : {false, true}) {
-        for (const int bands : {3, 36, 224}) {
-            const std::string name = fmt::format("{} {} bands", light ? "B2 reflected flame light," : "B1 direct,", bands);
-            if ((light && bands == 36) || !is_wanted(name, only)) continue;
-            const Pair p = measure_alternately(
-                [&] {
-                    return render_frame({bands, light, {}, {}});
-                },
-                [&] { return baseline_frame(bands, light); }, pairs);
-            row(name + ", end to end, 1 thread", fmt::format("{:.3f} s CPU, {:.0f} MB", p.first.cpu_s, p.first.peak_MB),
-                fmt::format("baseline {:.3f} s", p.second.cpu_s), fmt::format("{:.2f}", p.cpu_ratio),
-                light          ? "P 1.5, G 0.5"
-                : bands == 224 ? "P 1.5, G 0.7"
-                               : "",
-                condition(p.first.results[kMean], light ? kLitMean : kDirectMean, light ? 5e-3 : 1e-4));
-            const double render_s = p.first.results[kRender_s], rays = 640.0 * 512.0;
-            row(name + ", render phase", fmt::format("{:.3f} s CPU", render_s), "", "", "",
-                fmt::format("{:.2f} M rays/s", 1e-6 * rays / render_s));
-            if (light) {
-                row(name + ", ground light", fmt::format("{:.3f} s CPU", p.first.results[kLight_s]), "", "", "",
-                    fmt::format("{:.1f} us per receiver", 1e6 * p.first.results[kLight_s] / 19600.0));
-            }
-            if (!light && bands == 224) {
-                Frame in_pieces{bands, light, {}, {}};
-                in_pieces.lines_at_once = 16;
-                const Pair piecewise = measure_alternately([&] { return render_frame(in_pieces); },
-                                                           [&] { return baseline_frame(bands, light); }, pairs);
-                row(name + ", 16 lines at a time as a run renders them",
-                    fmt::format("{:.3f} s CPU, {:.0f} MB", piecewise.first.cpu_s, piecewise.first.peak_MB),
-                    fmt::format("baseline {:.3f} s, whole image", piecewise.second.cpu_s),
-                    fmt::format("{:.2f}", piecewise.cpu_ratio), "",
-                    condition(piecewise.first.results[kMean], kDirectMean, 1e-4));
-            }
-            const Usage two = measure_median([&] { return render_frame({bands, light, {}, {}}); }, pairs, 2);
-            row(name + ", 2 threads", fmt::format("{:.3f} s wall", two.wall_s),
-                fmt::format("1 thread {:.3f} s wall", p.first.wall_s), fmt::format("{:.2f}", p.first.wall_s / two.wall_s),
-                ">= 1.8", "");
+/// r.m.s. of the pixels' relative deviations from an image with many more directions, at 4.0 um: sampling noise, %.
+template <class Image>
+double noise_percent(const Image& image, const Image& converged) {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < converged.size(); ++i) {
+        const double deviation = static_cast<double>(image[i]) / static_cast<double>(converged[i]) - 1.0;
+        squares += deviation * deviation;
+    }
+    return 100.0 * std::sqrt(squares / static_cast<double>(converged.size()));
+}
+
+/// Noise of the product with each number of planes, then that of the baseline with each number of directions.
+std::vector<double> noise(const std::vector<int>& planes, const std::vector<int>& directions) {
+    constexpr int kConvergedPlanes = 1024, kConvergedDirections = 48 * 48;
+    const W0Scene scene({.lambda_um = {4.0}, .reflectance = kReflectance});
+    const W0Camera camera;
+    const auto ours = [&](int count) {
+        const auto light = render::ground_irradiance(scene.scene(), {.directions = count, .reach_m = kReach_m});
+        return render::render_image(scene.scene(), &light, camera.request()).radiance_W_m2_sr_um;
+    };
+    const Baseline baseline(scene, kReflectance);
+    const auto theirs = [&](int count) { return baseline.render(camera, count).radiance_W_m2_sr_um; };
+    std::vector<double> percent;
+    const auto our_converged = ours(kConvergedPlanes);
+    for (const int count : planes) percent.push_back(noise_percent(ours(count), our_converged));
+    const auto their_converged = theirs(kConvergedDirections);
+    for (const int count : directions) percent.push_back(noise_percent(theirs(count), their_converged));
+    return percent;
+}
+
+/// One row of the product against the baseline, and one of the product's parts.
+Usage against_baseline(const std::string& name, const Frame& frame, int directions, int pairs, std::string_view limits,
+                       std::string_view remark = "") {
+    const Pair p = measure_alternately([&] { return render_frame(frame); },
+                                       [&] { return baseline_frame(frame.bands, directions); }, pairs);
+    row(name, fmt::format("{:.3f} s CPU, {:.0f} MB", p.first.cpu_s, p.first.peak_MB),
+        fmt::format("baseline{} {:.3f} s", directions > 0 ? fmt::format(", {} directions,", directions) : "",
+                    p.second.cpu_s),
+        fmt::format("{:.2f}", p.cpu_ratio), limits,
+        condition(p.first.results[kMean], directions > 0 ? kLitMean : kDirectMean, directions > 0 ? 5e-3 : 1e-4) +
+            std::string(remark));
+    return p.first;
+}
+
+void show_parts(const std::string& name, const Frame& frame, const Usage& used, int pairs) {
+    const double render_s = used.results[kRender_s], rays = 640.0 * 512.0;
+    row(name + ", render phase", fmt::format("{:.3f} s CPU", render_s), "", "", "",
+        fmt::format("{:.2f} M rays/s", 1e-6 * rays / render_s));
+    if (frame.planes > 0) {
+        row(name + ", ground light", fmt::format("{:.3f} s CPU", used.results[kLight_s]), "", "", "",
+            fmt::format("{:.1f} us per receiver", 1e6 * used.results[kLight_s] / 19600.0));
+    }
+    const Usage two = measure_median([&] { return render_frame(frame); }, pairs, 2);
+    row(name + ", 2 threads", fmt::format("{:.3f} s wall", two.wall_s), fmt::format("1 thread {:.3f} s wall", used.wall_s),
+        fmt::format("{:.2f}", used.wall_s / two.wall_s), ">= 1.8", "");
+}
+
+void direct_frames(int pairs, std::string_view only) {
+    for (const int bands : {3, 36, 224}) {
+        const std::string name = fmt::format("B1 direct, {} bands", bands);
+        if (!is_wanted(name, only)) continue;
+        const Frame frame{.bands = bands};
+        const Usage used = against_baseline(name + ", end to end, 1 thread", frame, 0, pairs,
+                                            bands == 224 ? "P 1.5, G 0.7; at most 0.2 s" : "");
+        show_parts(name, frame, used, pairs);
+        if (bands == 224) {
+            against_baseline(name + ", whole image in memory as in the baseline",
+                             {.bands = bands, .lines_at_once = kWholeImage}, 0, pairs, "");
         }
+    }
+}
+
+/// The baseline's directions are the same for all cells, so that few of them show every flame many times over: it is run with
+/// as many as a receiver of the product has rays at its coarsest, and with four times as many, which still is far noisier.
+void lit_frames(int pairs, std::string_view only) {
+    constexpr int kPlanes = 64, kFewPlanes = 8, kDirections = 256, kFewDirections = 64;  // a plane has eight rays
+    if (!is_wanted("B2 reflected flame light, 3 bands", only) && !is_wanted("B2 reflected flame light, 224 bands", only))
+        return;
+    const auto percent = measure([&] { return noise({kPlanes, kFewPlanes}, {kDirections, kFewDirections}); }).results;
+    const auto remark = [&](std::size_t which) {
+        return fmt::format("; noise {:.1f} %, baseline {:.0f} %", percent[which], percent[2 + which]);
+    };
+    for (const int bands : {3, 224}) {
+        const std::string name = fmt::format("B2 reflected flame light, {} bands", bands);
+        if (!is_wanted(name, only)) continue;
+        const Frame frame{.bands = bands, .planes = kPlanes};
+        const Usage used =
+            against_baseline(name + ", end to end, 1 thread", frame, kDirections, pairs, "P 1.5, G 0.5", remark(0));
+        show_parts(name, frame, used, pairs);
+        against_baseline(name + fmt::format(", {} planes: as many rays", kFewPlanes), {.bands = bands, .planes = kFewPlanes},
+                         kFewDirections, pairs, "P 1.5, G 0.5", remark(1));
     }
 }
 
 /// Growth with one quantity at a time: ratio of CPU seconds to the plain frame of 36 bands.
 void growth(int pairs, std::string_view only) {
-    const Frame plain{36, false, {}, {}};
+    const Frame plain{.bands = 36, .lines_at_once = kWholeImage};
     const auto against_plain = [&](std::string_view what, const Frame& changed, std::string_view limit) {
         const std::string name = fmt::format("B3 {}", what);
         if (!is_wanted(name, only)) return Pair{};
@@ -186,7 +241,8 @@ int main(int argc, char** argv) {
         if (std::string_view(argv[i]) == "--pairs") pairs = std::atoi(argv[i + 1]);
         if (std::string_view(argv[i]) == "--only") only = argv[i + 1];
     }
-    pyroscene::bench::frames_against_baseline(pairs, only);
+    pyroscene::bench::direct_frames(pairs, only);
+    pyroscene::bench::lit_frames(pairs, only);
     pyroscene::bench::growth(pairs, only);
     return 0;
 }

@@ -45,11 +45,11 @@ void Pixel::begin() {
     flame_used_ = ground_used_ = false;
 }
 
-std::optional<Pixel::Met> Pixel::meet(const SceneRay& ray) const {
+std::optional<Pixel::Met> Pixel::meet(const SceneRay& ray, const std::optional<TerrainMesh::Hit>& terrain) const {
     const PreparedScene& p = *prepared_;
-    if (const auto hit = p.scene.terrain->intersect(ray.start_m, ray.end_m)) {
-        const GroundCell ground = ground_cell(p.scene, p.tables, hit->point_m);
-        if (ground.base_K > 0.0) return Met{*hit, ground, true};
+    if (terrain) {
+        const GroundCell ground = ground_cell(p.scene, p.tables, terrain->point_m);
+        if (ground.base_K > 0.0) return Met{*terrain, ground, true};
     }
     const Vec3 way_m = ray.end_m - ray.start_m;
     if (p.scene.surroundings) {

@@ -62,12 +62,13 @@ public:
         bool scene = true;  ///< false: the surroundings or the sky
     };
     /// nullopt where there is neither scene nor surroundings nor sky.
-    [[nodiscard]] std::optional<Met> meet(const SceneRay& ray) const;
+    [[nodiscard]] std::optional<Met> meet(const SceneRay& ray) const {
+        return meet(ray, prepared_->scene.terrain->intersect(ray.start_m, ray.end_m));
+    }
+    /// The same for a ray of which it is known where it meets the terrain.
+    [[nodiscard]] std::optional<Met> meet(const SceneRay& ray, const std::optional<TerrainMesh::Hit>& terrain) const;
     /// Adds one sub-ray: flame, and ground or sky behind it (eq 4.11 with the ground term).
     void add(const SceneRay& ray, const Met& met, double weight);
-    void add_ray(const SceneRay& ray, double weight) {
-        if (const auto met = meet(ray)) add(ray, *met, weight);
-    }
     /// Turns all gathered weights into the spectra `flame` and `ground`: sums over rays that saw something.
     void finish();
 

@@ -91,11 +91,13 @@ public:
     /// \param detail  null: the rays of the request as they are
     TileRenderer(const PreparedScene& prepared, const ImageRequest& request, const FireDetail* detail)
         : request_(request),
+          terrain_(*prepared.scene.terrain),
           bands_(prepared.scene.spectral->band_count()),
           quantities_(request.terms ? 1 + term_count(prepared.scene) : 1),
           pixel_(prepared),
           output_(prepared, request.terms),
           rays_(static_cast<std::size_t>(kTileSamples) * static_cast<std::size_t>(request.rays_per_pixel)),
+          hits_(rays_.size()),
           buffer_(static_cast<std::size_t>(kTileSamples) * static_cast<std::size_t>(quantities_ * bands_)) {
         if (detail != nullptr) parts_.emplace(*detail, request);
     }
@@ -104,14 +106,20 @@ public:
         const auto rays_per_pixel = static_cast<std::size_t>(request_.rays_per_pixel);
         const std::span<SceneRay> rays(rays_.data(), static_cast<std::size_t>(end - begin) * rays_per_pixel);
         const bool by_parts = parts_ && parts_->begin(line, begin, end);
-        if (!by_parts) request_.rays(line, begin, end, rays);
+        if (!by_parts) {
+            request_.rays(line, begin, end, rays);
+            terrain_.intersect(rays, hits_);
+        }
         for (int sample = begin; sample < end; ++sample) {
             pixel_.begin();
             if (by_parts) {
                 parts_->trace(sample, pixel_);
             } else {
                 const auto first = static_cast<std::size_t>(sample - begin) * rays_per_pixel;
-                for (std::size_t r = 0; r < rays_per_pixel; ++r) pixel_.add_ray(rays[first + r], request_.ray_weight[r]);
+                for (std::size_t r = 0; r < rays_per_pixel; ++r) {
+                    const SceneRay& ray = rays[first + r];
+                    if (const auto met = pixel_.meet(ray, hits_[first + r])) pixel_.add(ray, *met, request_.ray_weight[r]);
+                }
             }
             pixel_.finish();
             const PixelTruth& truth = pixel_.truth();
@@ -146,10 +154,12 @@ private:
     }
 
     const ImageRequest& request_;
+    const TerrainMesh& terrain_;
     int bands_, quantities_;
     Pixel pixel_;
     BandOutput output_;
     std::vector<SceneRay> rays_;
+    std::vector<std::optional<TerrainMesh::Hit>> hits_;  ///< of these
     std::optional<PartTracer> parts_;
     std::vector<float> buffer_;  ///< [pixel of the tile][total, terms...][band]
 };

@@ -19,15 +19,10 @@
 #include "radiometry/spectral_grid.h"
 #include "radiometry/total_emissivity.h"
 #include "radiometry/view_atmosphere.h"
+#include "render/scene_ray.h"
 #include "render/terrain_mesh.h"
 
 namespace pyroscene::render {
-
-/// A straight piece of a line of sight in the scene frame, from the sensor side to below the ground.
-struct SceneRay {
-    Vec3 start_m, end_m;
-    bool open = false;  ///< where it meets no ground it looks into the sky, not past the scene
-};
 
 /// Terms of the at-sensor radiance (eq 4.44 with the thermal path and the thermal sky, docs/physics.md). They sum to the total.
 enum class Term {

@@ -67,6 +67,9 @@ std::vector<float> without_holes(const Raster<float>& height_m) {
 }  // namespace
 
 struct TerrainMesh::Impl {
+    static constexpr std::size_t kPacket = 16;  ///< rays that Embree traces side by side
+    struct Query;
+
     MapGrid grid;
     std::vector<std::uint8_t> hole;  ///< per cell, empty when there is none
     Vec3 centre;                     ///< origin of the float32 frame, scene frame
@@ -93,16 +96,22 @@ struct TerrainMesh::Impl {
     /// Drops hits over cells without height (Embree calls it for every candidate hit).
     static void reject_holes(const RTCFilterFunctionNArguments* args) {
         const auto& self = *static_cast<const Impl*>(args->geometryUserPtr);
-        const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);  // N == 1: rays are traced one by one
-        const double x_m = self.centre.x + ray->org_x + static_cast<double>(ray->tfar) * ray->dir_x;
-        const double y_m = self.centre.y + ray->org_y + static_cast<double>(ray->tfar) * ray->dir_y;
-        if (args->valid[0] == -1 && self.is_hole(x_m, y_m)) args->valid[0] = 0;
+        for (unsigned i = 0; i < args->N; ++i) {
+            if (args->valid[i] != -1) continue;
+            const auto along_m = static_cast<double>(RTCRayN_tfar(args->ray, args->N, i));
+            const double x_m =
+                self.centre.x + RTCRayN_org_x(args->ray, args->N, i) + along_m * RTCRayN_dir_x(args->ray, args->N, i);
+            const double y_m =
+                self.centre.y + RTCRayN_org_y(args->ray, args->N, i) + along_m * RTCRayN_dir_y(args->ray, args->N, i);
+            if (self.is_hole(x_m, y_m)) args->valid[i] = 0;
+        }
     }
 
     void build(const Raster<float>& height_m, Vec3 scene_origin_m);
     float* begin_geometry();
     void commit_geometry();
     bool clip(Vec3 start, Vec3 direction, double& near_m, double& far_m) const noexcept;
+    void intersect_packet(std::span<const SceneRay> rays, std::span<std::optional<Hit>> hits) const noexcept;
 };
 
 void TerrainMesh::Impl::build(const Raster<float>& height_m, Vec3 scene_origin_m) {
@@ -231,35 +240,87 @@ TerrainMesh::TerrainMesh(const Raster<float>& height_m, Vec3 scene_origin_m) : i
 TerrainMesh::TerrainMesh(TerrainMesh&&) noexcept = default;
 TerrainMesh::~TerrainMesh() = default;
 
-std::optional<TerrainMesh::Hit> TerrainMesh::intersect(Vec3 start_m, Vec3 end_m) const noexcept {
-    const double segment_m = length(end_m - start_m);
-    if (!(segment_m > 0.0) || !std::isfinite(segment_m)) return std::nullopt;
-    const Vec3 direction = (end_m - start_m) / segment_m;
-    double near_m = 0.0, far_m = segment_m;
-    if (!impl_->clip(start_m, direction, near_m, far_m)) return std::nullopt;
+/// A segment as Embree sees it: cut to the scene box, in float32 from the mesh's own origin.
+struct TerrainMesh::Impl::Query {
+    Vec3 start_m, direction;
+    double near_m = 0.0, far_m = 0.0;
+    Vec3 local_m;
 
-    const Vec3 local = start_m + near_m * direction - impl_->centre;
-    alignas(16) RTCRayHit query{};
-    query.ray.org_x = static_cast<float>(local.x);
-    query.ray.org_y = static_cast<float>(local.y);
-    query.ray.org_z = static_cast<float>(local.z);
-    query.ray.dir_x = static_cast<float>(direction.x);
-    query.ray.dir_y = static_cast<float>(direction.y);
-    query.ray.dir_z = static_cast<float>(direction.z);
-    query.ray.tfar = static_cast<float>(far_m - near_m);
-    query.ray.mask = ~0U;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    /// False for segments that miss the box.
+    bool set(const Impl& mesh, Vec3 from_m, Vec3 to_m) noexcept {
+        far_m = length(to_m - from_m);
+        if (!(far_m > 0.0) || !std::isfinite(far_m)) return false;
+        start_m = from_m;
+        direction = (to_m - from_m) / far_m;
+        near_m = 0.0;
+        if (!mesh.clip(start_m, direction, near_m, far_m)) return false;
+        local_m = start_m + near_m * direction - mesh.centre;
+        return true;
+    }
+    [[nodiscard]] Hit hit(float tfar, Vec3 Ng) const noexcept {
+        Hit hit;
+        hit.distance_m = near_m + static_cast<double>(tfar);
+        hit.point_m = start_m + hit.distance_m * direction;
+        hit.normal = normalized(Ng);
+        if (hit.normal.z < 0.0) hit.normal = -hit.normal;
+        return hit;
+    }
+};
+
+std::optional<TerrainMesh::Hit> TerrainMesh::intersect(Vec3 start_m, Vec3 end_m) const noexcept {
+    Impl::Query query;
+    if (!query.set(*impl_, start_m, end_m)) return std::nullopt;
+    alignas(16) RTCRayHit q{};
+    q.ray.org_x = static_cast<float>(query.local_m.x);
+    q.ray.org_y = static_cast<float>(query.local_m.y);
+    q.ray.org_z = static_cast<float>(query.local_m.z);
+    q.ray.dir_x = static_cast<float>(query.direction.x);
+    q.ray.dir_y = static_cast<float>(query.direction.y);
+    q.ray.dir_z = static_cast<float>(query.direction.z);
+    q.ray.tfar = static_cast<float>(query.far_m - query.near_m);
+    q.ray.mask = ~0U;
+    q.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(impl_->scene, &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    rtcIntersect1(impl_->scene, &context, &q);
+    if (q.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return query.hit(q.ray.tfar, {q.hit.Ng_x, q.hit.Ng_y, q.hit.Ng_z});
+}
 
-    Hit hit;
-    hit.distance_m = near_m + static_cast<double>(query.ray.tfar);
-    hit.point_m = start_m + hit.distance_m * direction;
-    hit.normal = normalized(Vec3{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
-    if (hit.normal.z < 0.0) hit.normal = -hit.normal;
-    return hit;
+void TerrainMesh::Impl::intersect_packet(std::span<const SceneRay> rays, std::span<std::optional<Hit>> hits) const noexcept {
+    std::array<Query, kPacket> queries;
+    alignas(64) std::array<int, kPacket> valid{};
+    alignas(64) RTCRayHit16 q{};
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits[i].reset();
+        q.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        Query& query = queries[i];
+        if (!query.set(*this, rays[i].start_m, rays[i].end_m)) continue;
+        valid[i] = -1;
+        q.ray.org_x[i] = static_cast<float>(query.local_m.x);
+        q.ray.org_y[i] = static_cast<float>(query.local_m.y);
+        q.ray.org_z[i] = static_cast<float>(query.local_m.z);
+        q.ray.dir_x[i] = static_cast<float>(query.direction.x);
+        q.ray.dir_y[i] = static_cast<float>(query.direction.y);
+        q.ray.dir_z[i] = static_cast<float>(query.direction.z);
+        q.ray.tfar[i] = static_cast<float>(query.far_m - query.near_m);
+        q.ray.mask[i] = ~0U;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect16(valid.data(), scene, &context, &q);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (valid[i] == 0 || q.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        hits[i] = queries[i].hit(q.ray.tfar[i], {q.hit.Ng_x[i], q.hit.Ng_y[i], q.hit.Ng_z[i]});
+    }
+}
+
+void TerrainMesh::intersect(std::span<const SceneRay> rays, std::span<std::optional<Hit>> hits) const noexcept {
+    for (std::size_t first = 0; first < rays.size(); first += Impl::kPacket) {
+        const std::size_t count = std::min(Impl::kPacket, rays.size() - first);
+        impl_->intersect_packet(rays.subspan(first, count), hits.subspan(first, count));
+    }
 }
 
 bool TerrainMesh::occluded(Vec3 from_m, Vec3 direction, double distance_m) const noexcept {

@@ -3,9 +3,11 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "base/raster.h"
 #include "base/vec3.h"
+#include "render/scene_ray.h"
 #include "render/terrain_heights.h"
 
 namespace pyroscene::render {
@@ -28,6 +30,9 @@ public:
     };
     /// First ground point on the segment start -> end (scene frame). Thread-safe.
     [[nodiscard]] std::optional<Hit> intersect(Vec3 start_m, Vec3 end_m) const noexcept;
+    /// The same for many rays at once, hits[i] of rays[i]: a fraction of the cost where they lie side by side. Which of two facets
+    /// a ray meets on their common edge may depend on the rays beside it. Thread-safe.
+    void intersect(std::span<const SceneRay> rays, std::span<std::optional<Hit>> hits) const noexcept;
     /// True when terrain lies between the point and a place `distance_m` away. Thread-safe.
     [[nodiscard]] bool occluded(Vec3 from_m, Vec3 direction, double distance_m) const noexcept;
     /// Height of the vertices, bilinear in between (within a facet's bend of what `intersect` meets); also defined over

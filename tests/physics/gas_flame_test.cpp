@@ -85,7 +85,7 @@ TEST(GasFlame, SlabEmitsAndTransmitsLikeTheReferencePath) {
     for (const double fill : {0.1, 1.0}) {
         const TestScene scene = scene_with_gas(1100.0, 900.0, 0.0, 3, fill);
         for (const double slant : {0.0, 1.0}) {  // straight down, and 45 degrees
-            const auto radiance = trace(scene, {{70.0 + 100.0 * slant, 71.0, 100.0}, {70.0, 71.0, 0.0}});
+            const auto radiance = trace(scene, {{70.0 + 102.0 * slant, 71.0, 101.0}, {70.0, 71.0, -1.0}});
             for (std::size_t l = 0; l < kLambda_um.size(); ++l) {
                 radiometry::FlamePath path(*tables(), kLambda_um[l]);
                 path.add(3.0 * fill * std::sqrt(1.0 + slant * slant), 1100.0, scene.optics.flame_gas);

@@ -113,6 +113,49 @@ TEST(TerrainMesh, NoRayLeaksThroughRoughGround) {
     EXPECT_LT(worst_m, 1e-3);
 }
 
+/// Rays side by side as of an image's line, and rays in all directions; some miss, some are nothing.
+std::vector<SceneRay> many_rays(double edge_m) {
+    std::vector<SceneRay> rays;
+    for (int i = 0; i < 3000; ++i) {
+        const double x = -10.0 + (edge_m + 20.0) * i / 3000.0, y = 0.37 * edge_m;
+        rays.push_back({{0.5 * edge_m, 0.5 * edge_m, 6000.0}, {x, y, 1400.0}});
+    }
+    const RandomKey key{.seed = 5};
+    for (std::uint64_t i = 0; i < 3001; ++i) {
+        const auto place = [&](std::uint32_t axis) { return edge_m * (1.4 * uniform01(key, i, axis) - 0.2); };
+        rays.push_back({{place(0), place(1), i % 7 == 0 ? 1520.0 : 2500.0}, {place(2), place(3), 1400.0}});
+        if (i % 50 == 0) rays.back().start_m.x = kNaN;
+        if (i % 51 == 0) rays.back().end_m = rays.back().start_m;
+    }
+    return rays;
+}
+
+TEST(TerrainMesh, RaysTogetherMeetWhatEachMeets) {
+    auto raster = rough(64, 64);
+    for (const bool with_holes : {false, true}) {
+        if (with_holes) {
+            for (int c = 0; c < 64; ++c) raster.at((5 * c) % 64, c) = std::numeric_limits<float>::quiet_NaN();
+        }
+        const TerrainMesh mesh(raster, south_west(raster.grid));
+        const auto rays = many_rays(64 * 30.0);
+        std::vector<std::optional<TerrainMesh::Hit>> hits(rays.size(), TerrainMesh::Hit{});
+        mesh.intersect(rays, hits);
+        int met = 0, missed = 0, other_facet = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const auto alone = mesh.intersect(rays[i].start_m, rays[i].end_m);
+            ASSERT_EQ(hits[i].has_value(), alone.has_value()) << i;
+            ++(alone ? met : missed);
+            if (!alone) continue;
+            EXPECT_NEAR(hits[i]->distance_m, alone->distance_m, 2e-3) << i;
+            EXPECT_LT(length(hits[i]->point_m - alone->point_m), 2e-3) << i;
+            if (length(hits[i]->normal - alone->normal) > 1e-4) ++other_facet;
+        }
+        EXPECT_GT(met, 4000);
+        EXPECT_GT(missed, 200);
+        EXPECT_LT(other_facet, 3);
+    }
+}
+
 TEST(TerrainMesh, CellsWithoutHeightAreHoles) {
     const auto raster = heights(20, 20, 10.0, [](int c, int r) { return (c == 7 && r == 5) || c == 0 ? kNaN : 10.0; });
     const TerrainMesh mesh(raster, south_west(raster.grid));
