@@ -198,6 +198,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     scene.spectral = &spectral.grid;
     scene.atmosphere = &spectral.atmosphere;
     scene.air_K = spectral.air_K;
+    scene.air_base_m = in.mean_height_m - in.origin_m.z;
     scene.scene_origin_m = in.origin_m;
     scene.to_sun = scenario.render.sun ? sun_direction(sun.centre(), map.convergence_rad(in.origin_m.x, in.origin_m.y))
                                        : Vec3{0.0, 0.0, -1.0};
@@ -217,7 +218,7 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
         const double line_of_sight_rad = std::atan2(v.x, v.y) + kPi;
         return render::PixelView{std::atan2(std::hypot(v.x, v.y), std::abs(v.z)),
                                  std::remainder(sun_azimuth_rad - line_of_sight_rad, 2.0 * kPi),
-                                 chords.open() ? 0.0 : hit_m.z + in.origin_m.z - in.mean_height_m};
+                                 chords.open() ? 0.0 : hit_m.z - scene.air_base_m};
     };
     request.terms = scenario.products.truth;
 

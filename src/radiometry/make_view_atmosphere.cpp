@@ -95,7 +95,7 @@ double diffuse_with_bounces(const PathTerms& path, std::size_t i, double albedo,
     return path.diffuse[i] + (path.direct[i] * sun_cosine + path.diffuse[i]) * bounced / (1.0 - bounced);
 }
 
-void append_illumination(ViewAtmosphere& out, const PathTerms& path, const Setting& s) {
+void append_illumination(GroundIllumination& out, const PathTerms& path, const Setting& s) {
     Array diffuse(path.diffuse.size());
     for (std::size_t n = 0; n < s.windows.size(); ++n) {
         const auto& window = s.windows[n];
@@ -193,10 +193,13 @@ ViewAtmosphere make_view_atmosphere(const AtmosphereSet& set, const AtmosphereCo
     out.height_m.assign(ground_heights_m.begin(), ground_heights_m.end());
     BlendedAtmosphere(set, conditions, range).at(out.node_secant.front(), path);
     append_illumination(out, path, setting);
+    const bool several = out.height_m.size() > 1;
     for (const double height_m : out.height_m) {
         const BlendedAtmosphere atmosphere(set, over_ground(conditions, height_m), range);
         for (const double secant : out.node_secant) {
             atmosphere.at(secant, path);
+            if (several && secant == out.node_secant.front())
+                append_illumination(out.illumination.emplace_back(), path, setting);
             append_view(out, path, setting);
         }
     }

@@ -1,19 +1,25 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace pyroscene::radiometry {
 
-/// Everything the atmosphere does on the transport grid of one acquisition: illumination of the ground and, per height of
-/// the ground and view zenith angle, what happens between there and the sensor. Index i runs over the SpectralGrid's nodes.
-struct ViewAtmosphere {
-    // Illumination (at the ground). Solar terms are zero at night.
+/// Light from above on the ground, [lambda]. Solar terms are zero at night.
+struct GroundIllumination {
     std::vector<float> direct_normal_irradiance_W_m2_um;  ///< on a plane normal to the beam
     std::vector<float> diffuse_irradiance_W_m2_um;        ///< horizontal, including ground-sky bounces
     std::vector<float> thermal_irradiance_W_m2_um;        ///< horizontal, from the sky
+};
+
+/// Everything the atmosphere does on the transport grid of one acquisition: illumination of the ground and, per height of
+/// the ground and view zenith angle, what happens between there and the sensor. Index i runs over the SpectralGrid's nodes.
+/// Illumination of the ground: the members of the base at height 0.
+struct ViewAtmosphere : GroundIllumination {
+    std::vector<GroundIllumination> illumination;  ///< [height]; empty: that of height 0 at all heights
 
     // View dependent: [height][node][lambda], heights falling, nodes ascending in secant of the view zenith angle at the ground.
-    std::vector<double> height_m{0.0};  ///< of the ground seen, above the ground of the illumination
+    std::vector<double> height_m{0.0};  ///< of the ground, above a reference
     std::vector<double> node_secant;
     std::vector<float> transmittance;
     std::vector<float> ln_transmittance_step;  ///< to the next node (0 at the last), at least -6; empty: one node
@@ -24,6 +30,10 @@ struct ViewAtmosphere {
     std::vector<float> adjacency_W_m2_sr_um;                         ///< light of the surroundings scattered into the view
 
     [[nodiscard]] int lambda_count() const noexcept { return static_cast<int>(direct_normal_irradiance_W_m2_um.size()); }
+    /// Of ground at height_m[i].
+    [[nodiscard]] const GroundIllumination& illumination_at(std::size_t i) const noexcept {
+        return illumination.empty() ? *this : illumination[i];
+    }
 
     /// View terms interpolated to one direction, arrays of lambda_count().
     struct View {

@@ -74,23 +74,26 @@ void write_rows(const LightScene& shared, const SceneTables& tables, const Point
 
 /// Reflections beyond the first look, for each kind of light. The first look took for granted that slopes in view receive
 /// the whole open sky and no flame light.
-void add_bounces(const LightScene& shared, const SceneTables& tables, Rows& rows) {
+void add_bounces(const LightScene& shared, const SceneTables& tables, const std::vector<std::size_t>& cells, Rows& rows) {
     const GroundLightSettings& settings = shared.settings;
     if (rows.through.empty() || settings.bounces < 2) return;
     const radiometry::ViewAtmosphere& air = *shared.scene.atmosphere;
-    const auto reflect = [&](std::vector<float>& irradiance, const std::vector<float>* granted) {
+    using Sky = radiometry::GroundIllumination;
+    std::vector<float> sky;
+    const auto reflect = [&](std::vector<float>& irradiance, std::vector<float> Sky::*granted) {
         if (irradiance.empty()) return;
         std::vector<float> change = irradiance;
         const auto stride = static_cast<std::size_t>(rows.light.stride);
-        for (std::size_t i = 0; granted != nullptr && i < change.size(); ++i) {
-            const std::size_t l = i % stride;
-            if (l < granted->size()) change[i] -= (*granted)[l];
+        for (std::size_t row = 0; granted != nullptr && row < cells.size(); ++row) {
+            const Receiver receiver = receiver_at(shared.scene, cells[row]);
+            sky_irradiance(air, granted, tables.level_at(shared.scene.terrain->height_at(receiver.x_m, receiver.y_m)), sky);
+            for (std::size_t l = 0; l < sky.size(); ++l) change[row * stride + l] -= sky[l];
         }
         reflect_between_slopes(tables, rows.patches, rows.through, settings.bounces, settings.decay, irradiance, change);
     };
     reflect(rows.light.irradiance_W_m2_um, nullptr);
-    reflect(rows.light.sky_irradiance_W_m2_um, &air.diffuse_irradiance_W_m2_um);
-    reflect(rows.light.thermal_irradiance_W_m2_um, &air.thermal_irradiance_W_m2_um);
+    reflect(rows.light.sky_irradiance_W_m2_um, &Sky::diffuse_irradiance_W_m2_um);
+    reflect(rows.light.thermal_irradiance_W_m2_um, &Sky::thermal_irradiance_W_m2_um);
 }
 
 /// Compares direct flame light with that of twice as many directions at up to 128 receivers, evenly spread over the rows.
@@ -177,7 +180,7 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
         for (std::size_t row = 0; row < cells.size(); ++row) waves[0][row].row = static_cast<std::int32_t>(row);
     }
     write_rows(shared, tables, points ? &*points : nullptr, cells, waves, rows, monitor);
-    add_bounces(shared, tables, rows);
+    add_bounces(shared, tables, cells, rows);
     if (settings.estimate_error && !points) light.sampling_error = sampling_error(shared, tables, cells);
     return light;
 }

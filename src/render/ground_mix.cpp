@@ -9,7 +9,7 @@ GroundMix::GroundMix(const SceneTables& tables)
       kernels_(&spectral_kernels()),
       emission_(static_cast<std::size_t>(tables.materials) * static_cast<std::size_t>(tables.planck.row_count()), 0.0F),
       is_touched_(emission_.size(), 0),
-      reflection_(static_cast<std::size_t>(tables.materials)),
+      reflection_(tables.level_m.size() * static_cast<std::size_t>(tables.materials)),
       smoky_sky_(tables) {}
 
 void GroundMix::add_emission(int material, double temperature_K, double weight) {
@@ -26,14 +26,22 @@ void GroundMix::add_emission(int material, double temperature_K, double weight) 
 }
 
 void GroundMix::add_reflection(int material, double weight, const GroundLight& light) {
-    Reflection& reflection = reflection_[static_cast<std::size_t>(material)];
+    const GroundLevel level = light.level;
+    const int levels = level.next > 0.0F ? 2 : 1;
+    const bool none = end_level_ == first_level_;
+    first_level_ = none ? level.first : std::min(first_level_, level.first);
+    end_level_ = std::max(end_level_, level.first + levels);
+    Reflection* reflection = &reflection_[static_cast<std::size_t>(level.first * tables_->materials + material)];
+    reflection->hidden += weight * light.hidden;
     if (light.smoke.to_sun > 0.0F || light.smoke.above > 0.0F) {
-        shaded_.push_back({material, weight * light.sun_cosine, weight * light.open, light.smoke});
+        shaded_.push_back({material, level, weight * light.sun_cosine, weight * light.open, light.smoke});
     } else {
-        reflection.sun += weight * light.sun_cosine;
-        reflection.open += weight * light.open;
+        for (int j = 0; j < levels; ++j, reflection += tables_->materials) {
+            const double share = weight * static_cast<double>(j == 0 ? 1.0F - level.next : level.next);
+            reflection->sun += share * light.sun_cosine;
+            reflection->open += share * light.open;
+        }
     }
-    reflection.hidden += weight * light.hidden;
     for (int j = 0; j < light.row_count; ++j) {
         const auto row = light.row[static_cast<std::size_t>(j)];
         const double share = weight * light.weight[static_cast<std::size_t>(j)];
@@ -79,8 +87,14 @@ void GroundMix::resolve_shaded(const ShadedPart& part, GroundSpectra& out) {
     for (std::vector<float>* row : {&through_, &sky_}) row->resize(static_cast<std::size_t>(t.stride));
     if (t.has_sun) {
         kernels_->transmittance(t.stride, t.smoke.extinction_per_m.data(), part.smoke.to_sun, through_.data());
-        kernels_->add_product(t.stride, static_cast<float>(part.sun), through_.data(), t.sun[part.material],
-                              out.part(GroundSpectra::Sun));
+        const auto sun = static_cast<float>(part.sun);
+        const auto add = [&](int level, float share) {
+            if (share > 0.0F)
+                kernels_->add_product(t.stride, sun * share, through_.data(), t.sun[level * t.materials + part.material],
+                                      out.part(GroundSpectra::Sun));
+        };
+        add(part.level.first, 1.0F - part.level.next);
+        add(part.level.first + 1, part.level.next);
     }
     if (part.open == 0.0) return;
     smoky_sky_.look_from(part.smoke);
@@ -90,6 +104,25 @@ void GroundMix::resolve_shaded(const ShadedPart& part, GroundSpectra& out) {
     };
     if (t.has_sky) add(t.smoke.sky.data(), false, GroundSpectra::Sky);
     add(t.smoke.thermal_sky.data(), true, GroundSpectra::ThermalSky);
+}
+
+void GroundMix::resolve_reflection(GroundSpectra& out) {
+    const SceneTables& t = *tables_;
+    for (int row = first_level_ * t.materials; row < end_level_ * t.materials; ++row) {
+        Reflection& reflection = reflection_[static_cast<std::size_t>(row)];
+        const auto add = [&](const float* spectrum, double weight, GroundSpectra::Part into) {
+            const auto w = static_cast<float>(weight);
+            if (w != 0.0F) kernels_->add_rows(t.stride, spectrum, t.stride, 1, &w, out.part(into));
+        };
+        const int material = row % t.materials;
+        if (t.has_sun) add(t.sun[row], reflection.sun, GroundSpectra::Sun);
+        if (t.has_sky) add(t.sky[row], reflection.open, GroundSpectra::Sky);
+        if (t.has_thermal_sky) add(t.thermal_sky[row], reflection.open, GroundSpectra::ThermalSky);
+        add(t.slopes_solar[material], reflection.hidden, GroundSpectra::Sky);
+        add(t.slopes_thermal[material], reflection.hidden, GroundSpectra::ThermalSky);
+        reflection = {};
+    }
+    first_level_ = end_level_ = 0;
 }
 
 void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out) {
@@ -102,19 +135,7 @@ void GroundMix::resolve(const GroundIrradiance* flame_light, GroundSpectra& out)
         is_touched_[static_cast<std::size_t>(i)] = 0;
     }
     touched_.clear();
-    for (int m = 0; m < t.materials; ++m) {
-        Reflection& reflection = reflection_[static_cast<std::size_t>(m)];
-        const auto add = [&](const SceneTables::Rows& rows_of, double weight, GroundSpectra::Part into) {
-            const auto w = static_cast<float>(weight);
-            if (w != 0.0F) kernels_->add_rows(t.stride, rows_of[m], t.stride, 1, &w, out.part(into));
-        };
-        if (t.has_sun) add(t.sun, reflection.sun, GroundSpectra::Sun);
-        if (t.has_sky) add(t.sky, reflection.open, GroundSpectra::Sky);
-        if (t.has_thermal_sky) add(t.thermal_sky, reflection.open, GroundSpectra::ThermalSky);
-        add(t.slopes_solar, reflection.hidden, GroundSpectra::Sky);
-        add(t.slopes_thermal, reflection.hidden, GroundSpectra::ThermalSky);
-        reflection = {};
-    }
+    resolve_reflection(out);
     if (sky_weight_ != 0.0F) {
         kernels_->add_rows(t.stride, t.open_sky.sunlit.data(), t.stride, 1, &sky_weight_, out.part(GroundSpectra::Sky));
         kernels_->add_rows(t.stride, t.open_sky.thermal.data(), t.stride, static_cast<int>(sky_node_weight_.size()),

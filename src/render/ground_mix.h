@@ -25,6 +25,7 @@ struct GroundSpectra {
 /// Light on a piece of ground: the cosine of the sun (0 in shadow) and up to four rows of GroundIrradiance around it;
 /// `open` is the rest of the weight, ground without a row, as far as it sees the sky; `hidden` as far as it sees terrain.
 struct GroundLight {
+    GroundLevel level;  ///< of the ground, for sun and open sky
     double sun_cosine = 0.0;
     int row_count = 0;
     std::array<std::int32_t, 4> row{};
@@ -65,10 +66,12 @@ private:
     /// Ground in the shade of smoke, each ray by itself.
     struct ShadedPart {
         int material;
+        GroundLevel level;
         double sun, open;
         SmokeShade smoke;
     };
 
+    void resolve_reflection(GroundSpectra& out);
     void resolve_shaded(const ShadedPart& part, GroundSpectra& out);
     void resolve_lit(const LitPart& part, const GroundIrradiance& flame_light, GroundSpectra& out) const;
 
@@ -76,8 +79,9 @@ private:
     const SpectralKernels* kernels_;
     std::vector<float> emission_;  ///< [material][Planck row] weight
     std::vector<std::uint8_t> is_touched_;
-    std::vector<std::int32_t> touched_;   ///< indices into emission_, in order of arrival
-    std::vector<Reflection> reflection_;  ///< [material]
+    std::vector<std::int32_t> touched_;    ///< indices into emission_, in order of arrival
+    std::vector<Reflection> reflection_;   ///< [level][material]
+    int first_level_ = 0, end_level_ = 0;  ///< those that hold anything
     std::vector<LitPart> lit_;
     std::vector<ShadedPart> shaded_;
     std::vector<float> through_, sky_;

@@ -100,6 +100,7 @@ void Pixel::add(const SceneRay& ray, const Met& met, double weight) {
 GroundLight Pixel::light_at(const Met& met) const {
     const RenderScene& scene = prepared_->scene;
     GroundLight light;
+    light.level = prepared_->tables.level_at(met.hit.point_m.z);
     if (!met.scene) {
         if (prepared_->tables.has_sun) light.sun_cosine = std::max(0.0, scene.to_sun.z);
         return light;

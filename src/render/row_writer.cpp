@@ -51,24 +51,26 @@ void RowWriter::write(const Receiver& receiver, const LatticeReceiver& place, Ro
     const SmokeShade shade = out.smoke != nullptr ? out.smoke->at({receiver.x_m, receiver.y_m, 0.0}) : SmokeShade{};
     const bool smoky = shade.above > 0.0F || shade.to_sun > 0.0F;
     if (smoky) smoky_sky_.look_from(shade);
-    const auto sum = [&](std::vector<float>& into, const std::vector<float>& whole, const float* a, const float* b,
-                         bool thermal) {
+    const GroundLevel level = tables_->level_at(shared_->scene.terrain->height_at(receiver.x_m, receiver.y_m));
+    const auto sum = [&](std::vector<float>& into, const float* a, const float* b, bool thermal) {
         if (into.empty()) return;
         float* irradiance = at(into);
-        const float* sky = whole.data();
         if (smoky) {
             const SmokeSpectra& smoke = tables_->smoke;
-            dimmed_sky_.resize(through_.size());
-            smoky_sky_.dim((thermal ? smoke.thermal_sky : smoke.sky).data(), thermal, dimmed_sky_.data());
-            sky = dimmed_sky_.data();
+            sky_.resize(through_.size());
+            smoky_sky_.dim((thermal ? smoke.thermal_sky : smoke.sky).data(), thermal, sky_.data());
+        } else {
+            sky_irradiance(air,
+                           thermal ? &radiometry::GroundIllumination::thermal_irradiance_W_m2_um
+                                   : &radiometry::GroundIllumination::diffuse_irradiance_W_m2_um,
+                           level, sky_);
         }
         for (std::size_t l = 0; l < static_cast<std::size_t>(light.lambda_count); ++l)
-            irradiance[l] = through_[l] * (open * sky[l] + a[l] + b[l]);
+            irradiance[l] = through_[l] * (open * sky_[l] + a[l] + b[l]);
     };
-    sum(light.sky_irradiance_W_m2_um, air.diffuse_irradiance_W_m2_um, terrain_.part(GroundSpectra::Sun),
-        terrain_.part(GroundSpectra::Sky), false);
-    sum(light.thermal_irradiance_W_m2_um, air.thermal_irradiance_W_m2_um, terrain_.part(GroundSpectra::Emission),
-        terrain_.part(GroundSpectra::ThermalSky), true);
+    sum(light.sky_irradiance_W_m2_um, terrain_.part(GroundSpectra::Sun), terrain_.part(GroundSpectra::Sky), false);
+    sum(light.thermal_irradiance_W_m2_um, terrain_.part(GroundSpectra::Emission), terrain_.part(GroundSpectra::ThermalSky),
+        true);
 }
 
 /// Flame light and opacity between other rows; false if it must be traced, and the row holds zeros then.
@@ -130,6 +132,7 @@ double RowWriter::look_at_terrain(const Receiver& receiver, const std::vector<st
         const GroundCell ground = ground_cell(scene, *tables_, hit->point_m);
         if (!(ground.base_K > 0.0)) return;
         GroundLight light;
+        light.level = tables_->level_at(hit->point_m.z);
         if (tables_->has_sun) light.sun_cosine = sun_cosine(scene, *hit);
         add_slope(ground, weight_sr, light);
         seen_sr += weight_sr;

@@ -76,8 +76,9 @@ struct RenderScene {
     const SceneOptics* optics = nullptr;
     const radiometry::SpectralGrid* spectral = nullptr;
     const radiometry::ViewAtmosphere* atmosphere = nullptr;
-    Vec3 scene_origin_m;  ///< map coordinates of the scene frame's origin (z = 0)
-    Vec3 to_sun;          ///< unit vector, scene frame; z <= 0 = night
+    Vec3 scene_origin_m;      ///< map coordinates of the scene frame's origin (z = 0)
+    double air_base_m = 0.0;  ///< height 0 of the atmosphere, scene frame
+    Vec3 to_sun;              ///< unit vector, scene frame; z <= 0 = night
     /// Level ground at ambient temperature wherever a ray finds no scene: beyond the map and where it has no data.
     struct Surroundings {
         int material = 0;

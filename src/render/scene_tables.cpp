@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -82,17 +83,21 @@ std::vector<double> exact_temperatures_K(const RenderScene& scene) {
     return exact;
 }
 
+/// Appends a row per material.
+template <class Value>
+void add_rows(const SceneTables& t, SceneTables::Rows& r, Value&& value) {
+    r.stride = t.stride;
+    for (int m = 0; m < t.materials; ++m) {
+        const std::size_t row = r.values.size();
+        r.values.resize(row + static_cast<std::size_t>(t.stride), 0.0F);
+        for (int l = 0; l < t.lambdas; ++l) r.values[row + static_cast<std::size_t>(l)] = static_cast<float>(value(m, l));
+    }
+}
+
 template <class Value>
 SceneTables::Rows rows(const SceneTables& t, Value&& value) {
     SceneTables::Rows r;
-    r.stride = t.stride;
-    r.values.assign(static_cast<std::size_t>(t.materials) * static_cast<std::size_t>(t.stride), 0.0F);
-    for (int m = 0; m < t.materials; ++m) {
-        for (int l = 0; l < t.lambdas; ++l) {
-            r.values[static_cast<std::size_t>(m) * static_cast<std::size_t>(t.stride) + static_cast<std::size_t>(l)] =
-                static_cast<float>(value(m, l));
-        }
-    }
+    add_rows(t, r, value);
     return r;
 }
 
@@ -150,6 +155,9 @@ void check_scene(const RenderScene& scene) {
     }
     check_length(optics.reflectance.size(), lambdas * materials, "reflectance");
     check_length(static_cast<std::size_t>(scene.atmosphere->lambda_count()), lambdas, "the atmosphere");
+    if (!scene.atmosphere->illumination.empty())
+        check_length(scene.atmosphere->illumination.size(), scene.atmosphere->height_m.size(),
+                     "the atmosphere's illumination");
     require(optics.burnt_material >= 0 && optics.burnt_material < optics.material_count, "scene",
             fmt::format("burnt_material is {}, expected one of {} materials", optics.burnt_material, optics.material_count));
     if (scene.surroundings) {
@@ -206,14 +214,9 @@ SceneTables::SceneTables(const RenderScene& scene) {
         return static_cast<double>(optics.reflectance[static_cast<std::size_t>(m) * static_cast<std::size_t>(lambdas) +
                                                       static_cast<std::size_t>(l)]);
     };
-    const auto reflected = [&](const std::vector<float>& irradiance) {
-        return rows(*this, [&](int m, int l) { return reflectance(m, l) / kPi * irradiance[static_cast<std::size_t>(l)]; });
-    };
     emissivity = rows(*this, [&](int m, int l) { return 1.0 - reflectance(m, l); });
     reflectance_per_pi = rows(*this, [&](int m, int l) { return reflectance(m, l) / kPi; });
-    sun = reflected(air.direct_normal_irradiance_W_m2_um);
-    sky = reflected(air.diffuse_irradiance_W_m2_um);
-    thermal_sky = reflected(air.thermal_irradiance_W_m2_um);
+    set_illumination(scene);
     set_open_sky(scene);
     set_slopes(scene);
 }
@@ -229,6 +232,42 @@ void SceneTables::set_total_transmittance(const RenderScene& scene) {
             optics.flame_tables ? 1.0 - radiometry::total_emissivity(*optics.flame_tables, optics.flame_gas, T_K, length_m)
                                 : std::exp(-soot_per_m * length_m));
     }
+}
+
+void SceneTables::set_illumination(const RenderScene& scene) {
+    const radiometry::ViewAtmosphere& air = *scene.atmosphere;
+    const auto add = [&](const radiometry::GroundIllumination& light) {
+        const auto reflected = [&](const std::vector<float>& irradiance) {
+            return [&](int m, int l) {
+                return static_cast<double>(reflectance_per_pi[m][l]) * irradiance[static_cast<std::size_t>(l)];
+            };
+        };
+        add_rows(*this, sun, reflected(light.direct_normal_irradiance_W_m2_um));
+        add_rows(*this, sky, reflected(light.diffuse_irradiance_W_m2_um));
+        add_rows(*this, thermal_sky, reflected(light.thermal_irradiance_W_m2_um));
+    };
+    const std::size_t levels = std::max<std::size_t>(air.illumination.size(), 1);
+    for (std::size_t i = 0; i < levels; ++i) {
+        level_m.push_back(scene.air_base_m + air.height_m[i]);
+        add(air.illumination_at(i));
+    }
+}
+
+GroundLevel SceneTables::level_at(double height_m) const noexcept {
+    if (level_m.size() < 2) return {};
+    const auto after = std::upper_bound(level_m.begin() + 1, level_m.end() - 1, height_m, std::greater<>());
+    const double above = *(after - 1), below = *after;
+    return {static_cast<int>(after - level_m.begin()) - 1,
+            static_cast<float>(std::clamp((above - height_m) / (above - below), 0.0, 1.0))};
+}
+
+void sky_irradiance(const radiometry::ViewAtmosphere& air, std::vector<float> radiometry::GroundIllumination::*kind,
+                    GroundLevel level, std::vector<float>& out) {
+    const auto first = static_cast<std::size_t>(level.first);
+    out = air.illumination_at(first).*kind;
+    if (!(level.next > 0.0F)) return;
+    const std::vector<float>& lower = air.illumination_at(first + 1).*kind;
+    for (std::size_t l = 0; l < out.size(); ++l) out[l] += level.next * (lower[l] - out[l]);
 }
 
 void SceneTables::set_open_sky(const RenderScene& scene) {

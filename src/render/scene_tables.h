@@ -42,17 +42,23 @@ struct OpenSky {
     std::vector<float> thermal;  ///< [node][stride]
 };
 
+/// Height of ground between two levels of its illumination: (1 - next) of level `first`, `next` of the one after it.
+struct GroundLevel {
+    int first = 0;
+    float next = 0.0F;
+};
+
 /// Everything of a scene that depends on wavelength only, laid out for the kernels: rows of `stride` floats (the wavelengths,
 /// padded with zeros). Built once per image.
 struct SceneTables {
     explicit SceneTables(const RenderScene& scene);
 
-    /// One row per material.
+    /// One row per material (and level, see below).
     struct Rows {
         std::vector<float> values;
         int stride = 0;
-        [[nodiscard]] const float* operator[](int material) const noexcept {
-            return values.data() + static_cast<std::ptrdiff_t>(material) * stride;
+        [[nodiscard]] const float* operator[](int row) const noexcept {
+            return values.data() + static_cast<std::ptrdiff_t>(row) * stride;
         }
     };
 
@@ -72,7 +78,11 @@ struct SceneTables {
     double truth_absorption_per_m = 0.0;  ///< at the node nearest 4.0 um
 
     Rows emissivity, reflectance_per_pi;
-    Rows sun, sky, thermal_sky;         ///< radiance reflected from the whole, open sky; sun: per cosine of incidence
+    /// Radiance reflected from the whole, open sky; sun: per cosine of incidence. Row `level * materials + material`.
+    Rows sun, sky, thermal_sky;
+    std::vector<double> level_m;  ///< heights of the ground that these are for, scene frame, falling
+    /// Where ground lies among the levels; beyond them as at the last.
+    [[nodiscard]] GroundLevel level_at(double height_m) const noexcept;
     Rows slopes_solar, slopes_thermal;  ///< radiance reflected from a hemisphere full of ambient terrain of the scene's mean
         ///< material: sun and sky that it reflects, what it emits and reflects of the thermal sky
     OpenSky open_sky;
@@ -82,11 +92,16 @@ struct SceneTables {
 
 private:
     void set_total_transmittance(const RenderScene& scene);
+    void set_illumination(const RenderScene& scene);
     void set_slopes(const RenderScene& scene);
     void set_open_sky(const RenderScene& scene);
     void set_smoke(const RenderScene& scene, std::span<const double> reflected, std::span<const double> emitted);
     void set_smoke_scattering(const RenderScene& scene);
 };
+
+/// Irradiance by the whole sky at a level, one kind of it: [lambda].
+void sky_irradiance(const radiometry::ViewAtmosphere& air, std::vector<float> radiometry::GroundIllumination::*kind,
+                    GroundLevel level, std::vector<float>& out);
 
 /// Checks that the parts of a scene fit together; throws an input error that names the part.
 void check_scene(const RenderScene& scene);

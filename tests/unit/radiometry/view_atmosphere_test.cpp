@@ -128,12 +128,48 @@ TEST(ViewAtmosphere, FollowsTheHeightOfTheGround) {
     EXPECT_LT(tau, 4e-3);
     EXPECT_LT(thermal, 4e-3);
     EXPECT_LT(solar, 1.5e-2);
-    // Illumination stays that of the mean ground.
-    const auto level = make_view_atmosphere(set, c, grid, constant(grid, 0.2));
-    EXPECT_EQ(atmosphere.direct_normal_irradiance_W_m2_um, level.direct_normal_irradiance_W_m2_um);
     // Outside the heights the nearest holds.
     EXPECT_EQ(view_of(atmosphere, 20.0, 70.0, 5000.0).path_thermal, view_of(atmosphere, 20.0, 70.0, 1000.0).path_thermal);
     EXPECT_THROW((void)make_view_atmosphere(set, c, grid, constant(grid, 0.2), std::vector{0.0, 100.0}), Error);
+}
+
+// Sun and sky on ground between the heights are those of a table made for it, and differ from those of the middle.
+TEST(ViewAtmosphere, IlluminationFollowsTheHeightOfTheGround) {
+    const AtmosphereSet set = load_atmosphere("midlatitude_summer", 23.0, {1000.0, 3000.0});
+    const auto grid = monochromatic_grid(std::vector{0.45, 0.65, 1.6, 2.2, 3.9, 8.7, 10.6});
+    auto c = conditions(2000.0, 40.0);
+    c.ground_elevation_m = 2000.0;
+    std::vector<double> heights_m;
+    for (double h = 1000.0; h >= -1000.0; h -= 250.0) heights_m.push_back(h);
+    const auto atmosphere = make_view_atmosphere(set, c, grid, constant(grid, 0.2), heights_m);
+    ASSERT_EQ(atmosphere.illumination.size(), heights_m.size());
+    const auto level = make_view_atmosphere(set, c, grid, constant(grid, 0.2));
+    EXPECT_TRUE(level.illumination.empty());
+    using Light = std::vector<float> GroundIllumination::*;
+    for (const auto& [kind, what, allowed] :
+         {std::tuple{Light{&GroundIllumination::direct_normal_irradiance_W_m2_um}, "direct", 3e-3},
+          std::tuple{Light{&GroundIllumination::diffuse_irradiance_W_m2_um}, "diffuse", 1e-2},
+          std::tuple{Light{&GroundIllumination::thermal_irradiance_W_m2_um}, "thermal sky", 1e-2}}) {
+        EXPECT_EQ(atmosphere.*kind, level.*kind);
+        double between = 0.0, ignored = 0.0;  // largest errors
+        for (std::size_t i = 0; i + 1 < heights_m.size(); ++i) {
+            auto there = c;
+            there.ground_elevation_m += 0.5 * (heights_m[i] + heights_m[i + 1]);
+            const auto exact = make_view_atmosphere(set, there, grid, constant(grid, 0.2));
+            for (std::size_t l = 0; l < (exact.*kind).size(); ++l) {
+                const double expected = (exact.*kind)[l], whole = kPi * planck_radiance(grid.lambda_um[l], 300.0);
+                if (expected < 0.01 * whole) continue;
+                const double found = 0.5 * static_cast<double>((atmosphere.illumination[i].*kind)[l] +
+                                                               (atmosphere.illumination[i + 1].*kind)[l]);
+                between = std::max(between, std::abs(found / expected - 1.0));
+                ignored = std::max(ignored, std::abs(static_cast<double>((level.*kind)[l]) / expected - 1.0));
+            }
+        }
+        std::printf("%s on ground between heights 250 m apart: %.1e, of the middle height instead: %.1e\n", what, between,
+                    ignored);
+        EXPECT_LT(between, allowed) << what;
+        EXPECT_GT(ignored, 3.0 * allowed) << what;
+    }
 }
 
 TEST(ViewAtmosphere, IlluminationAtOneWavelength) {
