@@ -24,4 +24,9 @@ inline constexpr double kZeroCelsius_K = 273.15;
 /// Standard acceleration used by the fire relations [m s-2] (fire-behaviour literature uses 9.81).
 inline constexpr double kGravity_m_s2 = 9.81;
 
+/// Mean radius of the Earth (IUGG R1) [m].
+inline constexpr double kEarthRadius_m = 6371008.8;
+/// The one that MODTRAN's geometry is made with [km].
+inline constexpr double kModtranEarthRadius_km = 6371.23;
+
 }  // namespace pyroscene

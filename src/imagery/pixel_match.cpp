@@ -15,8 +15,7 @@ struct Plane {
     double east_m_deg, north_m_deg;
 
     explicit Plane(double lat_deg) {
-        constexpr double kRadius_m = 6.371e6;
-        north_m_deg = kRadius_m * kDegree_rad;
+        north_m_deg = kEarthRadius_m * kDegree_rad;
         east_m_deg = north_m_deg * std::cos(lat_deg * kDegree_rad);
     }
 };

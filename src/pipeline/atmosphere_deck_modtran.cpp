@@ -11,13 +11,11 @@
 namespace pyroscene::pipeline {
 namespace {
 
-constexpr double kEarthRadius_km = 6371.23;
-
 /// Zenith angle of the line of sight at the sensor for a zenith angle at the ground (no refraction).
 double zenith_at_sensor_deg(const DeckGeometry& g, double view_zenith_deg) {
     const double top_km = std::min(g.ground_elevation_km + g.sensor_altitude_km, kDeckTop_km);
-    const double sine =
-        std::sin(view_zenith_deg * kDegree_rad) * (kEarthRadius_km + g.ground_elevation_km) / (kEarthRadius_km + top_km);
+    const double sine = std::sin(view_zenith_deg * kDegree_rad) * (kModtranEarthRadius_km + g.ground_elevation_km) /
+                        (kModtranEarthRadius_km + top_km);
     return 180.0 - std::asin(sine) / kDegree_rad;
 }
 

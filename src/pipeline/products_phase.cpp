@@ -253,7 +253,6 @@ std::vector<std::array<double, 2>> footprint(const RenderedImage& r) {
 
 /// Angle between the vertical and the line of sight at the sensor, from the view zenith and range at the ground, over a sphere.
 double off_nadir_deg(double view_zenith_deg, double range_m) {
-    constexpr double kEarthRadius_m = 6371e3;
     const double zenith = view_zenith_deg * kDegree_rad;
     return std::atan2(kEarthRadius_m * std::sin(zenith), kEarthRadius_m * std::cos(zenith) + range_m) / kDegree_rad;
 }

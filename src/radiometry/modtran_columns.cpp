@@ -27,8 +27,6 @@ constexpr std::array<UnitName, 7> kUnits{{{SpectralUnit::PerWavenumber, "W_cm2_c
                                           {SpectralUnit::WattPerNanometreM2, "W_m2_nm"},
                                           {SpectralUnit::Product, "W_m2_um"}}};
 
-constexpr double kEarthRadius_km = 6371.23;
-
 const std::vector<double>* find(const ModtranColumns& c, std::initializer_list<const char*> names) {
     for (const char* name : names)
         if (const auto it = c.columns.find(name); it != c.columns.end()) return &it->second;
@@ -271,7 +269,8 @@ AtmosphereRun to_run(const ModtranColumns& c, const RunHints& hints, const Spect
 
 double zenith_at_ground_deg(double zenith_at_sensor_deg, double sensor_altitude_km, double ground_km) {
     const double nadir_rad = (180.0 - zenith_at_sensor_deg) * kDegree_rad;
-    const double sine = std::sin(nadir_rad) * (kEarthRadius_km + sensor_altitude_km) / (kEarthRadius_km + ground_km);
+    const double sine =
+        std::sin(nadir_rad) * (kModtranEarthRadius_km + sensor_altitude_km) / (kModtranEarthRadius_km + ground_km);
     return std::asin(std::min(sine, 1.0)) / kDegree_rad;
 }
 

@@ -33,7 +33,7 @@ AtmosphereRun to_run(const ModtranColumns& columns, const RunHints& hints, const
 /// Sorts all arrays of a run by wavelength. Throws an input error when one occurs twice.
 void sort_by_wavelength(AtmosphereRun& run);
 
-/// Zenith angle at the ground of a straight ray with a zenith angle at some altitude (Earth radius 6371.23 km).
+/// Zenith angle at the ground of a straight ray with a zenith angle at some altitude (kModtranEarthRadius_km).
 double zenith_at_ground_deg(double zenith_at_sensor_deg, double sensor_altitude_km, double ground_km);
 
 /// Geometry from the numbers that MODTRAN's cards and JSON share; NaN or empty where they do not apply.

@@ -7,7 +7,7 @@
 
 namespace pyroscene::render {
 
-void light_around(const GroundIrradiance& light, double x_m, double y_m, GroundLight& out) noexcept {
+void light_around(const GroundIrradiance& light, double x_m, double y_m, GroundLight& out) {
     const MapGrid& grid = light.grid;
     const double col = std::clamp(grid.col_at(x_m) - 0.5, 0.0, grid.cols - 1.0);
     const double row = std::clamp(grid.row_at(y_m) - 0.5, 0.0, grid.rows - 1.0);

@@ -39,7 +39,7 @@ SkyView::~SkyView() {
     for (const auto& run : runs_) delete run.load();
 }
 
-double SkyView::at(std::size_t cell) const noexcept {
+double SkyView::at(std::size_t cell) const {
     const auto cols = static_cast<std::size_t>(heights_.cols);
     const std::size_t row = cell / cols, col = cell % cols;
     auto& place = runs_[row * runs_per_row_ + col / kRun];

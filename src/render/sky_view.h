@@ -20,7 +20,7 @@ public:
     ~SkyView();
     SkyView(const SkyView&) = delete;
     SkyView& operator=(const SkyView&) = delete;
-    [[nodiscard]] double at(std::size_t cell) const noexcept;
+    [[nodiscard]] double at(std::size_t cell) const;
 
 private:
     static constexpr int kRun = 32;
