@@ -77,23 +77,22 @@ void write_rows(const LightScene& shared, const SceneTables& tables, const Point
 void add_bounces(const LightScene& shared, const SceneTables& tables, const std::vector<std::size_t>& cells, Rows& rows) {
     const GroundLightSettings& settings = shared.settings;
     if (rows.through.empty() || settings.bounces < 2) return;
-    const radiometry::ViewAtmosphere& air = *shared.scene.atmosphere;
-    using Sky = radiometry::GroundIllumination;
-    std::vector<float> sky;
-    const auto reflect = [&](std::vector<float>& irradiance, std::vector<float> Sky::*granted) {
+    std::vector<float> between;
+    const auto reflect = [&](std::vector<float>& irradiance, const SceneTables::Rows* granted) {
         if (irradiance.empty()) return;
         std::vector<float> change = irradiance;
         const auto stride = static_cast<std::size_t>(rows.light.stride);
         for (std::size_t row = 0; granted != nullptr && row < cells.size(); ++row) {
             const Receiver receiver = receiver_at(shared.scene, cells[row]);
-            sky_irradiance(air, granted, tables.level_at(shared.scene.terrain->height_at(receiver.x_m, receiver.y_m)), sky);
-            for (std::size_t l = 0; l < sky.size(); ++l) change[row * stride + l] -= sky[l];
+            const GroundLevel level = tables.level_at(shared.scene.terrain->height_at(receiver.x_m, receiver.y_m));
+            const float* sky = tables.at_level(*granted, level, between);
+            for (std::size_t l = 0; l < stride; ++l) change[row * stride + l] -= sky[l];
         }
         reflect_between_slopes(tables, rows.patches, rows.through, settings.bounces, settings.decay, irradiance, change);
     };
     reflect(rows.light.irradiance_W_m2_um, nullptr);
-    reflect(rows.light.sky_irradiance_W_m2_um, &Sky::diffuse_irradiance_W_m2_um);
-    reflect(rows.light.thermal_irradiance_W_m2_um, &Sky::thermal_irradiance_W_m2_um);
+    reflect(rows.light.sky_irradiance_W_m2_um, &tables.sky_irradiance);
+    reflect(rows.light.thermal_irradiance_W_m2_um, &tables.thermal_sky_irradiance);
 }
 
 /// Compares direct flame light with that of twice as many directions at up to 128 receivers, evenly spread over the rows.

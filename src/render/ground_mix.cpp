@@ -98,12 +98,12 @@ void GroundMix::resolve_shaded(const ShadedPart& part, GroundSpectra& out) {
     }
     if (part.open == 0.0) return;
     smoky_sky_.look_from(part.smoke);
-    const auto add = [&](const float* sky, bool thermal, GroundSpectra::Part into) {
-        smoky_sky_.dim(sky, thermal, sky_.data());
+    const auto add = [&](const SceneTables::Rows& irradiance, bool thermal, GroundSpectra::Part into) {
+        smoky_sky_.dim(t.at_level(irradiance, part.level, between_), thermal, sky_.data());
         kernels_->add_product(t.stride, static_cast<float>(part.open), reflectance, sky_.data(), out.part(into));
     };
-    if (t.has_sky) add(t.smoke.sky.data(), false, GroundSpectra::Sky);
-    add(t.smoke.thermal_sky.data(), true, GroundSpectra::ThermalSky);
+    if (t.has_sky) add(t.sky_irradiance, false, GroundSpectra::Sky);
+    add(t.thermal_sky_irradiance, true, GroundSpectra::ThermalSky);
 }
 
 void GroundMix::resolve_reflection(GroundSpectra& out) {

@@ -84,7 +84,7 @@ private:
     int first_level_ = 0, end_level_ = 0;  ///< those that hold anything
     std::vector<LitPart> lit_;
     std::vector<ShadedPart> shaded_;
-    std::vector<float> through_, sky_;
+    std::vector<float> through_, sky_, between_;
     SmokySky smoky_sky_;
     float sky_weight_ = 0.0F;
     std::array<float, OpenSky::kCosine.size()> sky_node_weight_{};

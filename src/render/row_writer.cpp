@@ -47,7 +47,6 @@ void RowWriter::write(const Receiver& receiver, const LatticeReceiver& place, Ro
                               at(light.irradiance_W_m2_um));
     }
     const auto open = static_cast<float>(1.0 - hidden_sr / kPi);
-    const radiometry::ViewAtmosphere& air = *shared_->scene.atmosphere;
     const SmokeShade shade = out.smoke != nullptr ? out.smoke->at({receiver.x_m, receiver.y_m, 0.0}) : SmokeShade{};
     const bool smoky = shade.above > 0.0F || shade.to_sun > 0.0F;
     if (smoky) smoky_sky_.look_from(shade);
@@ -55,18 +54,15 @@ void RowWriter::write(const Receiver& receiver, const LatticeReceiver& place, Ro
     const auto sum = [&](std::vector<float>& into, const float* a, const float* b, bool thermal) {
         if (into.empty()) return;
         float* irradiance = at(into);
+        const float* sky =
+            tables_->at_level(thermal ? tables_->thermal_sky_irradiance : tables_->sky_irradiance, level, sky_);
         if (smoky) {
-            const SmokeSpectra& smoke = tables_->smoke;
-            sky_.resize(through_.size());
-            smoky_sky_.dim((thermal ? smoke.thermal_sky : smoke.sky).data(), thermal, sky_.data());
-        } else {
-            sky_irradiance(air,
-                           thermal ? &radiometry::GroundIllumination::thermal_irradiance_W_m2_um
-                                   : &radiometry::GroundIllumination::diffuse_irradiance_W_m2_um,
-                           level, sky_);
+            dimmed_sky_.resize(through_.size());
+            smoky_sky_.dim(sky, thermal, dimmed_sky_.data());
+            sky = dimmed_sky_.data();
         }
         for (std::size_t l = 0; l < static_cast<std::size_t>(light.lambda_count); ++l)
-            irradiance[l] = through_[l] * (open * sky_[l] + a[l] + b[l]);
+            irradiance[l] = through_[l] * (open * sky[l] + a[l] + b[l]);
     };
     sum(light.sky_irradiance_W_m2_um, terrain_.part(GroundSpectra::Sun), terrain_.part(GroundSpectra::Sky), false);
     sum(light.thermal_irradiance_W_m2_um, terrain_.part(GroundSpectra::Emission), terrain_.part(GroundSpectra::ThermalSky),

@@ -46,7 +46,7 @@ private:
     GroundMix mix_, fire_mix_;
     GroundSpectra terrain_, fire_;  ///< what slopes in view send; the glow of burning and burnt ground stands in `fire_`
     SmokySky smoky_sky_;
-    std::vector<float> through_, opacity_, of_moment_, sky_;
+    std::vector<float> through_, opacity_, of_moment_, sky_, dimmed_sky_;
 };
 
 }  // namespace pyroscene::render

@@ -94,6 +94,13 @@ void add_rows(const SceneTables& t, SceneTables::Rows& r, Value&& value) {
     }
 }
 
+void add_row(const SceneTables& t, SceneTables::Rows& r, const std::vector<float>& values) {
+    r.stride = t.stride;
+    const std::size_t row = r.values.size();
+    r.values.insert(r.values.end(), values.begin(), values.end());
+    r.values.resize(row + static_cast<std::size_t>(t.stride), 0.0F);
+}
+
 template <class Value>
 SceneTables::Rows rows(const SceneTables& t, Value&& value) {
     SceneTables::Rows r;
@@ -245,6 +252,8 @@ void SceneTables::set_illumination(const RenderScene& scene) {
         add_rows(*this, sun, reflected(light.direct_normal_irradiance_W_m2_um));
         add_rows(*this, sky, reflected(light.diffuse_irradiance_W_m2_um));
         add_rows(*this, thermal_sky, reflected(light.thermal_irradiance_W_m2_um));
+        add_row(*this, sky_irradiance, light.diffuse_irradiance_W_m2_um);
+        add_row(*this, thermal_sky_irradiance, light.thermal_irradiance_W_m2_um);
     };
     const std::size_t levels = std::max<std::size_t>(air.illumination.size(), 1);
     for (std::size_t i = 0; i < levels; ++i) {
@@ -261,13 +270,13 @@ GroundLevel SceneTables::level_at(double height_m) const noexcept {
             static_cast<float>(std::clamp((above - height_m) / (above - below), 0.0, 1.0))};
 }
 
-void sky_irradiance(const radiometry::ViewAtmosphere& air, std::vector<float> radiometry::GroundIllumination::*kind,
-                    GroundLevel level, std::vector<float>& out) {
-    const auto first = static_cast<std::size_t>(level.first);
-    out = air.illumination_at(first).*kind;
-    if (!(level.next > 0.0F)) return;
-    const std::vector<float>& lower = air.illumination_at(first + 1).*kind;
-    for (std::size_t l = 0; l < out.size(); ++l) out[l] += level.next * (lower[l] - out[l]);
+const float* SceneTables::at_level(const Rows& irradiance, GroundLevel level, std::vector<float>& between) const {
+    const float* first = irradiance[level.first];
+    if (!(level.next > 0.0F)) return first;
+    const float* next = irradiance[level.first + 1];
+    between.resize(static_cast<std::size_t>(stride));
+    for (std::size_t l = 0; l < between.size(); ++l) between[l] = first[l] + level.next * (next[l] - first[l]);
+    return between.data();
 }
 
 void SceneTables::set_open_sky(const RenderScene& scene) {
@@ -326,14 +335,12 @@ void SceneTables::set_smoke(const RenderScene& scene, std::span<const double> re
     smoke.scatters = any_positive(optics.smoke_albedo);
     smoke.extinction_per_m = optics.smoke_extinction_per_m;
     smoke.extinction_per_m.resize(size, smoke.extinction_per_m.back());
-    smoke.sky = air.diffuse_irradiance_W_m2_um;
-    smoke.thermal_sky = air.thermal_irradiance_W_m2_um;
     smoke.sun.assign(size, 0.0F);
     smoke.sky_radiance = smoke.ground_radiance = smoke.ground_lit = smoke.sun;
-    for (std::vector<float>* row : {&smoke.sky, &smoke.thermal_sky}) row->resize(size, 0.0F);
     for (std::size_t l = 0; l < emitted.size(); ++l) {
         if (has_sun) smoke.sun[l] = air.direct_normal_irradiance_W_m2_um[l];
-        smoke.sky_radiance[l] = (smoke.sky[l] + smoke.thermal_sky[l]) / static_cast<float>(kPi);
+        smoke.sky_radiance[l] =
+            (air.diffuse_irradiance_W_m2_um[l] + air.thermal_irradiance_W_m2_um[l]) / static_cast<float>(kPi);
         smoke.ground_radiance[l] = static_cast<float>(emitted[l] / kPi);
         smoke.ground_lit[l] = static_cast<float>(reflected[l] / kPi);
     }

@@ -21,8 +21,8 @@ inline constexpr float kMeanSlant = 1.66F;
 struct SmokeSpectra {
     bool scatters = false;
     std::vector<float> extinction_per_m, albedo, asymmetry;
-    std::vector<float> sun, sky, thermal_sky;  ///< irradiances: direct normal, horizontal
-    std::vector<float> sky_radiance;           ///< mean over the open sky
+    std::vector<float> sun;           ///< irradiance, direct normal
+    std::vector<float> sky_radiance;  ///< mean over the open sky
     std::vector<float> ground_radiance,
         ground_lit;                 ///< of the scene's mean ambient ground: emitted and thermal sky; sunlight
     SmokeDiffusion diffusion;       ///< empty: light is scattered once
@@ -80,9 +80,12 @@ struct SceneTables {
     Rows emissivity, reflectance_per_pi;
     /// Radiance reflected from the whole, open sky; sun: per cosine of incidence. Row `level * materials + material`.
     Rows sun, sky, thermal_sky;
-    std::vector<double> level_m;  ///< heights of the ground that these are for, scene frame, falling
+    Rows sky_irradiance, thermal_sky_irradiance;  ///< [level] of level ground
+    std::vector<double> level_m;                  ///< heights of the ground that these are for, scene frame, falling
     /// Where ground lies among the levels; beyond them as at the last.
     [[nodiscard]] GroundLevel level_at(double height_m) const noexcept;
+    /// A row of the irradiances at any level; `between` may be used to hold it.
+    [[nodiscard]] const float* at_level(const Rows& irradiance, GroundLevel level, std::vector<float>& between) const;
     Rows slopes_solar, slopes_thermal;  ///< radiance reflected from a hemisphere full of ambient terrain of the scene's mean
         ///< material: sun and sky that it reflects, what it emits and reflects of the thermal sky
     OpenSky open_sky;
@@ -98,10 +101,6 @@ private:
     void set_smoke(const RenderScene& scene, std::span<const double> reflected, std::span<const double> emitted);
     void set_smoke_scattering(const RenderScene& scene);
 };
-
-/// Irradiance by the whole sky at a level, one kind of it: [lambda].
-void sky_irradiance(const radiometry::ViewAtmosphere& air, std::vector<float> radiometry::GroundIllumination::*kind,
-                    GroundLevel level, std::vector<float>& out);
 
 /// Checks that the parts of a scene fit together; throws an input error that names the part.
 void check_scene(const RenderScene& scene);

@@ -105,6 +105,27 @@ TEST(Illumination, SkyBesideFlamesIsThatOfTheHeightOfTheCell) {
     }
 }
 
+TEST(Illumination, SkyThroughThinSmokeIsThatOfTheHeight) {
+    const double reflectance = 0.3, z_m = 700.0;
+    TestScene scene({.lambda_um = kLambda_um, .reflectance = reflectance});
+    scene.set_heights([&](double, double) { return z_m; });
+    set_light(scene, true);
+    scene.optics.smoke_extinction_per_m.assign(kLambda_um.size(), 1e-7F);
+    scene.plume = fire::make_flame_field(
+        {.corner_m = {-500.0, -500.0, z_m + 20.0}, .nx = 24, .ny = 24, .dx_m = 50.0, .dy_m = 50.0, .dz_m = 20.0},
+        box_of_voxels(24, 24, 2, 300.0));
+    const auto image = render::render_image(with_base(scene), nullptr,
+                                            rays_request({{{80.0, 70.0, z_m + 500.0}, {80.0, 70.0, z_m - 10.0}}}));
+    for (std::size_t l = 0; l < kLambda_um.size(); ++l) {
+        const auto irradiance = [&](render::Term t) {
+            return static_cast<double>(image.terms[static_cast<std::size_t>(t)][l]) * kPi / reflectance;
+        };
+        EXPECT_NEAR(irradiance(render::Term::ReflectedSun) / scene.to_sun.z, expected(direct, l, z_m - kBase_m), 0.02);
+        EXPECT_NEAR(irradiance(render::Term::ReflectedSky), expected(diffuse, l, z_m - kBase_m), 0.01);
+        EXPECT_NEAR(irradiance(render::Term::ReflectedThermalSky), expected(thermal, l, z_m - kBase_m), 0.01);
+    }
+}
+
 TEST(Illumination, HeightsOfOneLightChangeNothing) {
     const auto radiance = [](bool levels) {
         TestScene scene({.cols = 16, .rows = 16, .lambda_um = kLambda_um, .reflectance = 0.5});
