@@ -46,13 +46,36 @@ double azimuth_of_diamond(double p) noexcept {
     return quadrant * kPi / 2.0 + std::atan2(f, 1.0 - f);
 }
 
-/// sin^2 of the elevation with the sign of the elevation: strata even in it are even in irradiance on flat ground.
-double elevation_measure(double slope) noexcept {
-    return std::isinf(slope) ? std::copysign(1.0, slope) : slope * std::abs(slope) / (1.0 + slope * slope);
-}
-double slope_of_measure(double v) noexcept {
-    return std::copysign(std::sqrt(std::abs(v) / std::max(1.0 - std::abs(v), 1e-12)), v);
-}
+/// Elevations of a plane by how much light they send to the receiver. With phi the angle above the receiver's own surface, whose
+/// slope is `lowest`, light of even radiance falls in as cos(e) dq, q = 1 - cos(phi). The cosine is taken to be linear in q between
+/// the ends, as it is on level ground (then equal shares are equal in sin^2 e).
+class EvenElevations {
+public:
+    EvenElevations(double lowest, double low, double high) noexcept
+        : lowest_(lowest),
+          first_(measure(low)),
+          step_(measure(high) - first_),
+          at_low_(cosine(low)),
+          at_high_(cosine(high)) {}
+    /// Slope below which lies this share (0 to 1) of the light between the ends.
+    [[nodiscard]] double slope_at(double share) const noexcept {
+        const double cosine = std::sqrt(at_low_ * at_low_ + share * (at_high_ * at_high_ - at_low_ * at_low_));
+        const double q = first_ + step_ * share * (at_low_ + at_high_) / (at_low_ + cosine);
+        const double cos_phi = 1.0 - q, sin_phi = std::sqrt(std::max(q * (2.0 - q), 0.0));
+        return (lowest_ * cos_phi + sin_phi) / std::max(cos_phi - lowest_ * sin_phi, 1e-6);
+    }
+
+private:
+    [[nodiscard]] double measure(double slope) const noexcept {
+        const double own = 1.0 / std::sqrt(1.0 + lowest_ * lowest_), there = cosine(slope);
+        const double sine = std::isinf(slope) ? 1.0 : slope * there;
+        const double cos_phi = own * (there + lowest_ * sine), sin_phi = own * (sine - lowest_ * there);
+        return sin_phi * sin_phi / (1.0 + cos_phi);
+    }
+    static double cosine(double slope) noexcept { return 1.0 / std::sqrt(1.0 + slope * slope); }
+
+    double lowest_, first_, step_, at_low_, at_high_;
+};
 
 /// Gas at the emission-weighted mean temperature of all flame: exact for flame of one temperature.
 AbsorptionNodes absorption_nodes(const RenderScene& scene) {
@@ -278,12 +301,12 @@ void ReceiverLight::trace_plane(Vec3 from_m, const Receiver& receiver, double az
     if (!slopes_of_flame(from_m, low, high)) return;
 
     alignas(32) std::array<float, kStrata> slopes{}, weights{};
-    const double v_low = elevation_measure(low), v_step = (elevation_measure(high) - v_low) / kStrata;
+    const EvenElevations elevations(plane.lowest_slope(), low, high);
     double below = plane.below(low);
     for (int s = 0; s < kStrata; ++s) {
         const auto i = static_cast<std::size_t>(s);
-        const double up_to = plane.below(s + 1 == kStrata ? high : slope_of_measure(v_low + (s + 1) * v_step));
-        const auto slope = static_cast<float>(slope_of_measure(v_low + (s + in_stratum) * v_step));
+        const double up_to = plane.below(s + 1 == kStrata ? high : elevations.slope_at((s + 1.0) / kStrata));
+        const auto slope = static_cast<float>(elevations.slope_at((s + in_stratum) / kStrata));
         slopes[i] = std::abs(slope) < kLeastSlope ? kLeastSlope : slope;
         weights[i] = static_cast<float>(weight * (up_to - below));
         below = up_to;
@@ -321,15 +344,25 @@ void ReceiverLight::cross_columns(Vec3 from_m, double dx, double dy) {
         });
 }
 
-/// Notes for each column how steep a line of sight must be to pass the terrain in front of it.
+/// Notes for each column how steep a line of sight must be to pass the terrain in front of it. Terrain has its edges where the
+/// plane crosses the lines through cell centres: it is looked at there, so that the crest of a ridge is not stepped over.
 void ReceiverLight::find_horizons(Vec3 from_m, double dx, double dy) {
     const TerrainMesh& terrain = *shared_->scene.terrain;
-    const double step_m = terrain.grid().cell_m;
-    double slope = -std::numeric_limits<double>::infinity(), r = step_m;
+    const TerrainHeights& heights = terrain.heights();
+    const auto lines = [&](double from, double rate) {
+        const double place = from / heights.cell_m - 0.5,
+                     next = rate > 0.0 ? std::floor(place) + 1.0 : std::ceil(place) - 1.0;
+        const double step_m = heights.cell_m / std::max(std::abs(rate), 1e-12);
+        return std::array{std::abs(next - place) * step_m, step_m};
+    };
+    auto [x_m, x_step_m] = lines(from_m.x - heights.lower_m.x, dx);
+    auto [y_m, y_step_m] = lines(heights.upper_m.y - from_m.y, -dy);
+    double slope = -std::numeric_limits<double>::infinity();
     for (PlaneColumn& column : columns_) {
-        for (; r < static_cast<double>(column.enter_m); r += step_m) {
+        for (double r; (r = std::min(x_m, y_m)) < static_cast<double>(column.enter_m);) {
             const double h = terrain.height_at(from_m.x + r * dx, from_m.y + r * dy);
             if (h > -1e9) slope = std::max(slope, (h - from_m.z) / r);
+            (x_m <= y_m ? x_m : y_m) += x_m <= y_m ? x_step_m : y_step_m;
         }
         column.horizon = static_cast<float>(slope);
     }

@@ -206,6 +206,45 @@ TEST(GroundLight, RidgeHidesTheFlameBehindIt) {
     EXPECT_GT(irradiance_at(hidden, 4, 45), 1.0F);  // between ridge and flame
 }
 
+TEST(GroundLight, OfAWallBehindARidgeTheTopIsSeen) {
+    // The ridge hides the wall up to the line of sight over its crest, which is as high all along the wall. The crest is sharper
+    // than the cells, and lines of sight are askew to them.
+    TestScene scene({.cols = 60, .rows = 160, .cell_m = 5.0, .ground_K = 300.0, .absorption_per_m = 100.0});
+    const double crest_m = 20.0, crest_x_m = 102.5;
+    scene.set_heights([&](double x, double) { return std::max(0.0, crest_m * (1.0 - std::abs(x - crest_x_m) / 7.0)); });
+    scene.set_flame({.corner_m = {150.0, 0.0, 0.0}, .nx = 1, .ny = 200, .dx_m = 4.0, .dy_m = 4.0, .dz_m = 1.0},
+                    box_of_voxels(1, 200, 60, 1000.0));
+    const auto light = render::ground_irradiance(scene.scene(), {.reach_m = 1000.0});
+    for (const int col : {0, 3, 6, 9}) {
+        const double x_m = (col + 0.5) * 5.0, away_m = 150.0 - x_m;
+        const double F =
+            wall_view_factor(away_m, 60.0, 400.0) - wall_view_factor(away_m, crest_m * away_m / (crest_x_m - x_m), 400.0);
+        EXPECT_NEAR(irradiance_at(light, 80, col) / (kPi * planck_radiance(4.0, 1000.0) * F), 1.0, 0.01) << x_m << " m";
+    }
+}
+
+TEST(GroundLight, SlopesSeeTheHotFootOfAWallInProportion) {
+    // A long opaque wall whose lowest four metres are hot and the rest cold, on ground that rises from it. Between angles a and b
+    // above the receiver's own surface a strip without end has the view factor (cos a - cos b) / 2.
+    for (const double slope : {0.0, 0.15, 0.3}) {
+        TestScene scene(
+            {.cols = 40, .rows = 9, .cell_m = 5.0, .ground_K = 300.0, .lambda_um = {1.0}, .absorption_per_m = 100.0});
+        scene.set_heights([&](double x, double) { return slope * (x - 100.0); });
+        auto wall = box_of_voxels(1, 80, 16, 1200.0);
+        for (auto& voxel : wall)
+            if (voxel.k >= 4) voxel.temperature_K = 600.0F;
+        scene.set_flame({.corner_m = {99.0, -1977.5, 0.0}, .nx = 1, .ny = 80, .dx_m = 1.0, .dy_m = 50.0, .dz_m = 1.0}, wall);
+        const auto light = render::ground_irradiance(scene.scene(), {.directions = 1024, .reach_m = 2500.0});
+        for (const int col : {22, 23, 26}) {
+            const double away_m = (col + 0.5) * 5.0 - 100.0, up_m = slope * away_m;
+            const double own = std::atan(slope), hot = std::atan((4.0 - up_m) / away_m) + own;
+            const double F = 0.5 * (1.0 - std::cos(hot));
+            EXPECT_NEAR(irradiance_at(light, 4, col) / (kPi * planck_radiance(1.0, 1200.0) * F), 1.0, 0.015)
+                << slope << ", " << away_m << " m";
+        }
+    }
+}
+
 TEST(GroundLight, FlameThatStandsOnTheGroundIsSeenFromUnderIt) {
     // In the middle of a wide opaque block: the black body's pi B, whether the voxels begin at the ground or below it.
     for (const double bottom_m : {0.0, -2.0}) {
