@@ -216,7 +216,7 @@ double air_temperature_K(const radiometry::AtmosphereSet& set, radiometry::Atmos
 
 SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneInputs& in, const OpticalTables& tables,
                                   const FireScene& fire, const std::vector<Spectrum>& responses, double sensor_agl_m,
-                                  const radiometry::SunPosition& sun, RunReport& report) {
+                                  double largest_view_zenith_rad, const radiometry::SunPosition& sun, RunReport& report) {
     SpectralScene out;
     auto& optics = out.optics;
     const auto conditions = conditions_of(scenario, tables, sensor_agl_m, sun);
@@ -255,7 +255,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
     if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, tables.air->tables.front(), out.grid);
     out.atmosphere = radiometry::make_view_atmosphere(*tables.air, conditions, out.grid, albedo, tables.ground_heights_m);
     out.air_K = air_temperature_K(*tables.air, conditions);
-    for (const auto& warning : radiometry::atmosphere_warnings(*tables.air, conditions))
+    for (const auto& warning : radiometry::atmosphere_warnings(*tables.air, {conditions, largest_view_zenith_rad, 0.0}))
         report.warn("atmosphere: " + warning);
     return out;
 }

@@ -53,10 +53,12 @@ struct SpectralScene {
     int surroundings_material = -1;  ///< of the ground around the scene; -1 = no data there
     double air_K = 0.0;              ///< near the ground; 0 without air
 };
-/// \param sensor_agl_m sensor height above the mean terrain  \param sun position at the scene centre
+/// \param sensor_agl_m sensor height above the mean terrain  \param largest_view_zenith_rad of any pixel, to warn of
+/// \param sun position at the scene centre
 SpectralScene make_spectral_scene(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,
                                   const OpticalTables& tables, const FireScene& fire, const std::vector<Spectrum>& responses,
-                                  double sensor_agl_m, const radiometry::SunPosition& sun, RunReport& report);
+                                  double sensor_agl_m, double largest_view_zenith_rad, const radiometry::SunPosition& sun,
+                                  RunReport& report);
 
 /// The transport wavelengths alone, as make_spectral_scene() picks them.
 radiometry::SpectralGrid transport_grid(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs,

@@ -161,11 +161,25 @@ double distance_to_flame_m(const fire::FlameField& flame, Vec3 from_m) {
     return std::isfinite(nearest_m) ? nearest_m : 0.0;
 }
 
-/// Height above the ground from which a path at the largest view angle of the atmosphere tables is so long: near the ground
-/// the air along a level line of sight is that of a slant path of the same length.
-double height_of_slant_path_m(double length_m) {
-    constexpr double kLargestViewZenith_deg = 65.0;
-    return length_m * std::cos(kLargestViewZenith_deg * kDegree_rad);
+/// Near the ground the air along a level line of sight is that of a slant path of the same length: at this view angle, the
+/// largest of the atmosphere tables.
+constexpr double kSlantPath_rad = 65.0 * kDegree_rad;
+double height_of_slant_path_m(double length_m) { return length_m * std::cos(kSlantPath_rad); }
+
+/// Of a line of sight, upward or downward.
+double view_zenith_rad(const sensors::ImageChords& chords, const sensors::ImageGeometry& geometry, int line, int sample) {
+    const auto position = sensors::scan_position_of(geometry, sample, line);
+    const Vec3 v = chords.scan(position.scan).at(position.u, position.v).view_enu;
+    return std::atan2(std::hypot(v.x, v.y), std::abs(v.z));
+}
+
+/// Judged by the corners of the image and the middles of its sides.
+double largest_view_zenith_rad(const sensors::ImageChords& chords, const sensors::ImageGeometry& geometry) {
+    double largest_rad = 0.0;
+    for (const int line : {0, geometry.lines / 2, geometry.lines - 1})
+        for (const int sample : {0, geometry.samples / 2, geometry.samples - 1})
+            largest_rad = std::max(largest_rad, view_zenith_rad(chords, geometry, line, sample));
+    return largest_rad;
 }
 
 }  // namespace
@@ -185,8 +199,9 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
                                       std::max(in.highest_m, flame_top_m) + 10.0, 2.0 * farthest_corner_m(in, sensor_m));
     const double sensor_agl_m = chords.open() ? height_of_slant_path_m(distance_to_flame_m(job.fire.flame, sensor_m))
                                               : std::max(1.0, sensor.h_m - in.mean_height_m);
-    const auto spectral =
-        make_spectral_scene(scenario, in, job.tables, job.fire, responses, sensor_agl_m, sun.centre(), report);
+    const auto spectral = make_spectral_scene(scenario, in, job.tables, job.fire, responses, sensor_agl_m,
+                                              chords.open() ? kSlantPath_rad : largest_view_zenith_rad(chords, job.geometry),
+                                              sun.centre(), report);
 
     render::RenderScene scene;
     scene.terrain = &job.terrain;
@@ -216,7 +231,8 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
         const auto position = sensors::scan_position_of(job.geometry, sample, line);
         const Vec3 v = chords.scan(position.scan).at(position.u, position.v).view_enu;
         const double line_of_sight_rad = std::atan2(v.x, v.y) + kPi;
-        return render::PixelView{std::atan2(std::hypot(v.x, v.y), std::abs(v.z)),
+        const double zenith_rad = std::atan2(std::hypot(v.x, v.y), std::abs(v.z));
+        return render::PixelView{chords.open() ? std::min(zenith_rad, kSlantPath_rad) : zenith_rad,
                                  std::remainder(sun_azimuth_rad - line_of_sight_rad, 2.0 * kPi),
                                  chords.open() ? 0.0 : hit_m.z - scene.air_base_m};
     };

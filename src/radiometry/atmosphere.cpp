@@ -14,7 +14,7 @@
 namespace pyroscene::radiometry {
 namespace {
 
-/// Secant of an angle clamped to the table, whose largest secant at() clamps to again.
+/// Secant of an angle below the horizon; at() clamps it.
 double secant(double zenith_rad) noexcept { return 1.0 / std::max(std::cos(zenith_rad), 1e-3); }
 
 AtmosphericTerms evaluate_range(const AtmosphereSet& set, const AtmospherePoint& p, LambdaRange range) {
@@ -110,8 +110,12 @@ std::vector<std::string> atmosphere_warnings(const AtmosphereSet& set, const Atm
         out.push_back(fmt::format("{} {:.6g} {} is outside the tables; {:.6g} {} is used", name, value, unit, used, unit));
     };
     constexpr double kSlack = 1e-9, kElevationSlack_m = 200.0;  // changes tau by 0.03 at most
-    if (point.view_zenith_rad > limits.view_zenith_rad + kSlack)
-        clamped("view zenith", point.view_zenith_rad / kDegree_rad, limits.view_zenith_rad / kDegree_rad, "deg");
+    const double steepest_rad = std::max(std::acos(1.0 / kLargestViewSecant), limits.view_zenith_rad);
+    if (point.view_zenith_rad > steepest_rad + kSlack)
+        clamped("view zenith", point.view_zenith_rad / kDegree_rad, steepest_rad / kDegree_rad, "deg");
+    else if (point.view_zenith_rad > limits.view_zenith_rad + kSlack)
+        out.push_back(fmt::format("view zenith {:.6g} deg is beyond the tables; Beer's law goes on from {:.6g} deg",
+                                  point.view_zenith_rad / kDegree_rad, limits.view_zenith_rad / kDegree_rad));
     if (c.sun_zenith_rad > limits.sun_zenith_rad + kSlack && c.sun_zenith_rad < 0.5 * kPi)
         out.push_back(
             fmt::format("sun zenith {:.2f} deg is beyond the tables; {:.0f} deg is used, its light scaled "

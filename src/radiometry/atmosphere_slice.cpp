@@ -155,6 +155,16 @@ void TableSlice::at(double view_secant, PathTerms& out) const {
             out.solar_source[r][i] =
                 exp_or_zero(mix(low.ln_solar_source[r][i], high.ln_solar_source[r][i], view.fraction), kSmallestSource);
     }
+    const double beyond = std::min(view_secant, kLargestViewSecant) - secant_.back();
+    if (beyond > 0.0 && secant_.size() > 1) follow_beers_law(beyond, out.ln_tau);
+}
+
+/// From the last view angle on to a larger secant.
+void TableSlice::follow_beers_law(double beyond_secant, std::vector<double>& ln_tau) const {
+    const std::vector<double>&last = nodes_.back().ln_tau, &before = nodes_[nodes_.size() - 2].ln_tau;
+    const double steps = beyond_secant / (secant_.back() - secant_[secant_.size() - 2]);
+    for (std::size_t i = 0; i < ln_tau.size(); ++i)
+        ln_tau[i] = std::max(last[i] + steps * std::min(last[i] - before[i], 0.0), std::log(kSmallestTau));
 }
 
 }  // namespace pyroscene::radiometry

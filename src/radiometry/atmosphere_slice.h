@@ -27,6 +27,9 @@ struct PathTerms {
     void resize(std::size_t n);
 };
 
+/// 85 deg. The tables hold for plane layers of air; nearer to the horizon that says nothing any more.
+inline constexpr double kLargestViewSecant = 11.473713245669854;
+
 /// A table reduced to one sensor altitude and one sun zenith angle, for all its view angles. Scheme of
 /// data/atmosphere/README.md: ln tau and t_d in u = 1 - exp(-h / 4 km), sources (the thermal one by its brightness temperature) and ln C in ln h, in the secant of the sun
 /// zenith; E_dif in its cosine. Below the lowest altitude node tau, C and t_d go to 1, 1 and 0 at the ground and the sources
@@ -36,7 +39,8 @@ public:
     /// \param altitude_km above ground, >= 0   \param sun_zenith_rad 0 .. pi/2, clamped to the table's largest
     TableSlice(const AtmosphereTable& table, LambdaRange range, double altitude_km, double sun_zenith_rad);
 
-    /// Terms of a view direction, linear in the secant between the table's view angles (clamped to them).
+    /// Terms of a view direction, linear in the secant between the table's view angles. Beyond the last of them ln tau goes on as
+    /// between the last two, up to kLargestViewSecant; the other terms, sources among them, stay.
     void at(double view_secant, PathTerms& out) const;
 
 private:
@@ -47,6 +51,7 @@ private:
     struct SlicePosition;
     static void fill_view_node(const AtmosphereTable& table, std::size_t v, LambdaRange range, const SlicePosition& at,
                                Node& node);
+    void follow_beers_law(double beyond_secant, std::vector<double>& ln_tau) const;
     void fill_ground(const AtmosphereTable& table, LambdaRange range, const SlicePosition& at);
 
     std::vector<double> secant_;

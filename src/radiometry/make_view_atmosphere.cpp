@@ -66,7 +66,8 @@ LambdaRange needed_range(const Array& lambda, const SpectralGrid& grid) {
     return {begin, std::max(std::min(from + 1, lambda.size()), begin + 2)};
 }
 
-/// View nodes: the tables' own angles, each interval cut finely enough for linear interpolation of exponentials.
+/// View nodes: the tables' own angles, each interval cut finely enough for linear interpolation of exponentials, and on to the
+/// largest angle that is not clamped, where only the path grows.
 Array view_secants(const Array& view_zenith_deg) {
     constexpr double kLongestStep = 0.07;
     constexpr int kFewestSteps = 4;
@@ -76,6 +77,11 @@ Array view_secants(const Array& view_zenith_deg) {
         const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil((end - start) / kLongestStep)));
         for (int k = 1; k < steps; ++k) nodes.push_back(start + (end - start) * k / steps);
         nodes.push_back(end);
+    }
+    constexpr double kGrowth = 1.15;
+    if (nodes.size() > 1 && nodes.back() < kLargestViewSecant) {
+        for (double secant = kGrowth * nodes.back(); secant < kLargestViewSecant; secant *= kGrowth) nodes.push_back(secant);
+        nodes.push_back(kLargestViewSecant);
     }
     return nodes;
 }

@@ -40,7 +40,7 @@ struct ViewAtmosphere : GroundIllumination {
         std::vector<float> transmittance, path_thermal, path_solar, solar_correlation, adjacency;
         void resize(int n);
     };
-    /// \param view_zenith_rad at the ground, clamped to the table  \param relative_azimuth_rad sun azimuth minus azimuth of
+    /// \param view_zenith_rad at the ground, clamped to 85 deg  \param relative_azimuth_rad sun azimuth minus azimuth of
     ///        the line of sight (sensor to target): 0 = looking towards the sun  \param ground_m height of the ground seen, as
     ///        height_m, clamped.  `out` must be resized; no allocation.
     void at(double view_zenith_rad, double relative_azimuth_rad, double ground_m, View& out) const noexcept;

@@ -136,6 +136,31 @@ TEST(AtmosphereError, LeavingOutANode) {
     }
 }
 
+// Beyond its last angle a table follows Beer's law: without 55, 60 and 65 deg it finds 65 deg, where clamping it to 45 deg would
+// transmit up to half as much again.
+TEST(AtmosphereError, ViewsBeyondTheTable) {
+    const auto t = load_table("lowtran7_midlatitude_summer_rural23_ground0.nc");
+    AtmosphereTable reduced = t;
+    while (reduced.view_zenith_deg.back() > 50.0)
+        reduced = leave_out(reduced, Axis::View, reduced.view_zenith_deg.size() - 1);
+    for (const double altitude_m : {500.0, 3000.0, 100e3}) {
+        AtmospherePoint p;
+        p.conditions.sensor_altitude_agl_m = altitude_m;
+        p.conditions.sun_zenith_rad = 45.0 * kDegree_rad;
+        p.view_zenith_rad = 65.0 * kDegree_rad;
+        const auto truth = evaluate({{t}}, p), found = evaluate({{reduced}}, p);
+        for (const auto& window : kWindows) {
+            const auto mean = [&](const std::vector<double>& values) {
+                return mean_over({Quantity::Dimensionless, truth.wavelength_um, values}, window.lower_um, window.upper_um);
+            };
+            EXPECT_NEAR(mean(found.transmittance) / mean(truth.transmittance), 1.0, 0.03) << window.name << altitude_m;
+            if (window.lower_um > 3.0) {
+                EXPECT_NEAR(mean(found.path_thermal) / mean(truth.path_thermal), 1.0, 0.06) << window.name << altitude_m;
+            }
+        }
+    }
+}
+
 // Tables over high ground tell what opaque air sends at altitudes between the nodes of the sea-level table: the ground does not
 // show through, so only the altitude above the sea counts. LOWTRAN itself takes each layer at one temperature (2 K here).
 TEST(AtmosphereError, OpaqueAirBetweenTheAltitudes) {
