@@ -3,6 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "pipeline/acquisition.h"
+#include "radiometry/user_spectra.h"
+#include "sensors/sensor.h"
 
 namespace pyroscene::pipeline {
 namespace {
@@ -40,6 +45,38 @@ void warn_of_flat_flames(const scenario::Scenario& s, Warnings& out) {
             "air; physics: default measures its angle from the ground");
 }
 
+/// Bands of the acquisitions that see wavelengths of an interval, as "acquisition: band, band".
+std::string bands_within(const scenario::Scenario& s, double lower_um, double upper_um) {
+    std::string out;
+    for (const auto& a : s.acquisitions) {
+        const auto sensor = sensors::load_sensor(a.sensor);
+        std::vector<std::string> bands;
+        for (const auto& group : wanted_groups(a, sensor))
+            for (const int b : wanted_bands(a, sensor, group)) {
+                const auto& band = sensor.bands[static_cast<std::size_t>(b)];
+                if (band.centre_um > lower_um && band.centre_um < upper_um) bands.push_back(band.id);
+            }
+        if (bands.empty()) continue;
+        constexpr std::size_t kMost = 5;
+        const bool more = bands.size() > kMost;
+        if (more) bands.resize(kMost);
+        out += fmt::format("{}{}: {}{}", out.empty() ? "" : "; ", a.id, fmt::join(bands, ", "), more ? ", ..." : "");
+    }
+    return out;
+}
+
+/// Where the user's spectrum has no samples, a straight line stands for what was not measured.
+void warn_of_gaps_in_spectra(const scenario::Scenario& s, Warnings& out) {
+    if (s.surface.emissivity) return;
+    for (const auto& [name, file] : s.surface.spectra)
+        for (const auto& [lower_um, upper_um] : radiometry::gaps_um(radiometry::load_reflectance(file, name)))
+            if (const auto bands = bands_within(s, lower_um, upper_um); !bands.empty())
+                out.push_back(
+                    fmt::format("surface '{}' ({}) has no sample between {:.4g} and {:.4g} um, where bands lie ({}): a "
+                                "straight line is used",
+                                name, file.filename().string(), lower_um, upper_um, bands));
+}
+
 }  // namespace
 
 std::vector<std::string> scenario_warnings(const scenario::Scenario& scenario, const inputs::SceneInputs& inputs) {
@@ -47,6 +84,7 @@ std::vector<std::string> scenario_warnings(const scenario::Scenario& scenario, c
     warn_of_sparse_frames(scenario, inputs, out);
     warn_of_late_images(scenario, inputs, out);
     warn_of_flat_flames(scenario, out);
+    warn_of_gaps_in_spectra(scenario, out);
     if (inputs.modelled) out.insert(out.end(), inputs.modelled->warnings.begin(), inputs.modelled->warnings.end());
     return out;
 }

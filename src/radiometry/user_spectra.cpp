@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -34,21 +35,48 @@ std::string trimmed(const std::string& text) {
     return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-void check_values(const std::string& subject, const Spectrum& s) {
-    if (s.lambda_um.size() < 2)
-        throw input_error(subject, fmt::format("{} wavelengths, expected at least 2", s.lambda_um.size()));
-    for (std::size_t i = 0; i < s.lambda_um.size(); ++i) {
-        const double lambda = s.lambda_um[i], r = s.value[i];
-        if (!(lambda >= 0.1 && lambda <= 1000.0))
-            throw input_error(subject,
-                              fmt::format("wavelength {:.6g} um, expected 0.1 to 1000 um; is the unit right?", lambda));
-        if (i > 0 && !(lambda > s.lambda_um[i - 1]))
-            throw input_error(subject, fmt::format("wavelength {:.6g} um after {:.6g} um, expected ascending", lambda,
-                                                   s.lambda_um[i - 1]));
-        if (!(r >= 0.0 && r <= 1.0))
-            throw input_error(subject, fmt::format("reflectance {:.6g} at {:.6g} um, expected 0 to 1{}", r, lambda,
-                                                   r > 1.0 && r <= 100.0 ? " (percent must be divided by 100)" : ""));
+/// What a file holds, with the place in it of every sample.
+struct Samples {
+    std::vector<double> lambda_um, reflectance;
+    std::vector<std::string> where;
+};
+
+/// Refuses what no reflectance spectrum is. Wavelengths that descend throughout are turned round.
+Spectrum checked(const std::string& subject, Samples s) {
+    const auto count = s.lambda_um.size();
+    if (count < 2) throw input_error(subject, fmt::format("{} wavelengths, expected at least 2", count));
+    const bool descends = s.lambda_um.back() < s.lambda_um.front();
+    if (descends) {
+        std::reverse(s.lambda_um.begin(), s.lambda_um.end());
+        std::reverse(s.reflectance.begin(), s.reflectance.end());
+        std::reverse(s.where.begin(), s.where.end());
     }
+    for (std::size_t i = 0; i < count; ++i) {
+        const double lambda = s.lambda_um[i], r = s.reflectance[i];
+        if (!(lambda >= 0.1 && lambda <= 1000.0))
+            throw input_error(s.where[i],
+                              fmt::format("wavelength {:.6g} um, expected 0.1 to 1000 um; is the unit right?", lambda));
+        if (i > 0 && !(lambda > s.lambda_um[i - 1])) {
+            const auto later = descends ? i - 1 : i, earlier = descends ? i : i - 1;
+            throw input_error(s.where[later],
+                              fmt::format("wavelength {:.6g} um after {:.6g} um, expected {} as elsewhere",
+                                          s.lambda_um[later], s.lambda_um[earlier], descends ? "descending" : "ascending"));
+        }
+        if (!(r >= 0.0 && r <= 1.0))
+            throw input_error(s.where[i], fmt::format("reflectance {:.6g} at {:.6g} um, expected 0 to 1{}", r, lambda,
+                                                      r > 1.0 && r <= 100.0 ? " (percent must be divided by 100)" : ""));
+    }
+    return {Quantity::Reflectance, std::move(s.lambda_um), std::move(s.reflectance)};
+}
+
+/// Which of two columns a table has. Both would say everything twice.
+bool has_first(const CsvTable& table, const char* first, const char* second) {
+    if (table.has(first) && table.has(second))
+        throw input_error(table.path, fmt::format("has both {} and {}; keep one of them", first, second));
+    if (!table.has(first) && !table.has(second))
+        throw input_error(
+            table.path, fmt::format("no column {} or {}; the table has {}", first, second, fmt::join(table.columns, ", ")));
+    return table.has(first);
 }
 
 Spectrum from_csv(const fs::path& path) {
@@ -59,13 +87,15 @@ Spectrum from_csv(const fs::path& path) {
                               fmt::format("column '{}' is unknown; there are wavelength_um or wavelength_nm, and "
                                           "reflectance or emissivity",
                                           column));
-    const bool nanometres = !table.has("wavelength_um"), emissivity = !table.has("reflectance");
-    Spectrum s{Quantity::Reflectance, table.numbers(nanometres ? "wavelength_nm" : "wavelength_um"),
-               table.numbers(emissivity ? "emissivity" : "reflectance")};
-    for (double& lambda : s.lambda_um) lambda *= nanometres ? 1e-3 : 1.0;
-    for (double& value : s.value) value = emissivity ? 1.0 - value : value;
-    check_values(table.path, s);
-    return s;
+    const bool micrometres = has_first(table, "wavelength_um", "wavelength_nm");
+    const bool reflectance = has_first(table, "reflectance", "emissivity");
+    Samples s{table.numbers(micrometres ? "wavelength_um" : "wavelength_nm"),
+              table.numbers(reflectance ? "reflectance" : "emissivity"),
+              {}};
+    for (double& lambda : s.lambda_um) lambda *= micrometres ? 1.0 : 1e-3;
+    for (double& value : s.reflectance) value = reflectance ? value : 1.0 - value;
+    for (const int line : table.row_lines) s.where.push_back(fmt::format("{}:{}", table.path, line));
+    return checked(table.path, std::move(s));
 }
 
 /// "key = value" of an ENVI header; lists in braces may run over lines.
@@ -131,7 +161,8 @@ double micrometres_per_unit(const Header& header, const fs::path& path) {
     const auto unit = it == header.end() ? std::string("unknown") : lower(it->second);
     if (unit == "micrometers" || unit == "micrometres" || unit == "um" || unit == "microns") return 1.0;
     if (unit == "nanometers" || unit == "nanometres" || unit == "nm") return 1e-3;
-    throw input_error(path.string(), fmt::format("wavelength units '{}', expected Micrometers or Nanometers", unit));
+    throw input_error(path.string(), fmt::format("wavelength units {}, expected Micrometers or Nanometers",
+                                                 it == header.end() ? "are missing" : "'" + it->second + "'"));
 }
 
 /// The header lies beside the library, as NAME.hdr or NAME.sli.hdr.
@@ -162,18 +193,22 @@ Spectrum from_envi(const fs::path& library, const std::string& name) {
     const auto it = header.find("wavelength");
     const auto wavelengths = it == header.end() ? std::vector<std::string>{} : list_of(it->second);
     if (wavelengths.size() != samples)
-        throw input_error(path.string(), fmt::format("{} wavelengths for {} samples", wavelengths.size(), samples));
+        throw input_error(path.string(), fmt::format("{} wavelengths, expected one for each of the {} samples",
+                                                     wavelengths.size(), samples));
     const double unit = micrometres_per_unit(header, path);
     const std::size_t line = line_of_spectrum(header, path, lines, name);
-    Spectrum s{Quantity::Reflectance, {}, {}};
+    const double ignored = header_number(header, path, "data ignore value", std::numeric_limits<double>::quiet_NaN());
+    Samples s;
     for (std::size_t i = 0; i < samples; ++i) {
         const std::size_t offset = skip + (line * samples + i) * width;
+        const double value =
+            type == 4 ? value_at<float>(bytes, offset, big_endian) : value_at<double>(bytes, offset, big_endian);
+        if (std::abs(value - ignored) <= 1e-6 * std::abs(ignored)) continue;
         s.lambda_um.push_back(unit * parse_number(wavelengths[i], fmt::format("{}, wavelength", path.string())));
-        s.value.push_back(
-            (type == 4 ? value_at<float>(bytes, offset, big_endian) : value_at<double>(bytes, offset, big_endian)) / scale);
+        s.reflectance.push_back(value / scale);
+        s.where.push_back(fmt::format("{}, sample {}", library.string(), i + 1));
     }
-    check_values(library.string(), s);
-    return s;
+    return checked(library.string(), std::move(s));
 }
 
 }  // namespace
@@ -182,6 +217,20 @@ Spectrum load_reflectance(const fs::path& path, const std::string& name) {
     const auto extension = lower(path.extension().string());
     if (extension == ".hdr") return from_envi(fs::path(path).replace_extension(".sli"), name);
     return extension == ".sli" ? from_envi(path, name) : from_csv(path);
+}
+
+std::vector<std::array<double, 2>> gaps_um(const Spectrum& spectrum) {
+    const auto& lambda_um = spectrum.lambda_um;
+    std::vector<double> steps;  // relative, as bands are wide in proportion to their wavelength
+    for (std::size_t i = 1; i < lambda_um.size(); ++i) steps.push_back(lambda_um[i] / lambda_um[i - 1] - 1.0);
+    if (steps.empty()) return {};
+    auto sorted = steps;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    std::vector<std::array<double, 2>> gaps;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (steps[i] > std::max(10.0 * *middle, 0.05)) gaps.push_back({lambda_um[i], lambda_um[i + 1]});
+    return gaps;
 }
 
 void add_spectra(SurfaceLibrary& library, const std::map<std::string, fs::path>& files) {
