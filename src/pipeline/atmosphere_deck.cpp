@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "inputs/scene_inputs.h"
+#include "pipeline/acquisition.h"
 #include "pipeline/atmosphere_deck_codes.h"
 #include "radiometry/sun.h"
 #include "sensors/sensor.h"
@@ -25,11 +26,13 @@ const scenario::Acquisition& find(const scenario::Scenario& s, const std::string
     throw input_error("--acquisition", fmt::format("no '{}'; there are {}", id, fmt::join(ids, ", ")));
 }
 
-/// Angle from the vertical of the farthest corner of any camera group; the widest tabulated angle for other scanners.
+/// Angle from the vertical of the farthest corner of any camera group of the acquisition; the widest tabulated angle for other
+/// scanners.
 double widest_view_deg(const scenario::Acquisition& a, const sensors::Sensor& sensor) {
     constexpr double kWidest_deg = 65.0;
     double half_rad = 0.0;
-    for (const auto& g : sensor.groups) {
+    for (const auto& id : wanted_groups(a, sensor)) {
+        const auto& g = sensor.group(id);
         if (!(g.focal_length_m > 0.0)) return kWidest_deg;
         half_rad = std::max(half_rad, std::atan(0.5 * std::hypot(g.samples, g.lines) * g.pixel_pitch_m / g.focal_length_m));
     }
@@ -53,6 +56,8 @@ int deck_model_number(const std::string& model) {
 
 DeckGeometry deck_geometry(const scenario::Scenario& s, const std::string& acquisition_id) {
     const auto& a = find(s, acquisition_id);
+    if (!s.atmosphere.file && s.atmosphere.model == "none")
+        throw input_error("atmosphere.model", "'none' has no air that a code could compute; name a model atmosphere");
     const auto in = inputs::load_scene_inputs(s);
     const auto sensor = sensors::load_sensor(a.sensor);
     DeckGeometry g;
@@ -78,11 +83,12 @@ DeckGeometry deck_geometry(const scenario::Scenario& s, const std::string& acqui
     g.day_of_year = 1 + static_cast<int>((unix_s - year_start->unix_s) / 86400.0);
     g.lower_um = 1e3;
     g.upper_um = 0.0;
-    for (const auto& band : sensor.bands) {
-        if (!a.bands.empty() && std::find(a.bands.begin(), a.bands.end(), band.id) == a.bands.end()) continue;
-        g.lower_um = std::min(g.lower_um, 0.99 * band.response.lambda_um.front());
-        g.upper_um = std::max(g.upper_um, 1.01 * band.response.lambda_um.back());
-    }
+    for (const auto& group : wanted_groups(a, sensor))
+        for (const int b : wanted_bands(a, sensor, group)) {
+            const auto& lambda_um = sensor.bands[static_cast<std::size_t>(b)].response.lambda_um;
+            g.lower_um = std::min(g.lower_um, 0.99 * lambda_um.front());
+            g.upper_um = std::max(g.upper_um, 1.01 * lambda_um.back());
+        }
     return g;
 }
 

@@ -7,7 +7,8 @@ namespace pyroscene::pipeline {
 
 using DeckFiles = std::vector<std::pair<std::string, std::string>>;  ///< {file name, text}
 
-constexpr double kDeckTop_km = 99.9;  ///< MODTRAN's atmosphere ends at 100 km
+constexpr double kDeckTop_km = 99.9;    ///< MODTRAN's atmosphere ends at 100 km
+constexpr double kDeckCo2_ppm = 420.0;  ///< that of the 2020s; the codes' own profiles have 330 to 400
 
 /// Number of a model atmosphere in LOWTRAN, MODTRAN and libRadtran; mid-latitude summer for unknown ones.
 int deck_model_number(const std::string& model);

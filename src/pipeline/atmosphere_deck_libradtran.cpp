@@ -118,6 +118,7 @@ DeckFiles libradtran_files(const DeckGeometry& g) {
         std::string text = fmt::format("# {}\natmosphere_file {}\n", run.name, libradtran_model(deck_model_number(g.model)));
         text += fmt::format("aerosol_default\naerosol_visibility {:.6g}\naltitude {:.6g}\nday_of_year {}\n", g.visibility_km,
                             g.ground_elevation_km, g.day_of_year);
+        text += fmt::format("mixing_ratio CO2 {:.6g}\n", kDeckCo2_ppm);
         text += "mol_abs_param reptran medium\nrte_solver disort\nnumber_of_streams 16\n";
         for (const auto& line : run.lines) text += line + "\n";
         files.emplace_back(run.name + ".inp", text + "quiet\n");

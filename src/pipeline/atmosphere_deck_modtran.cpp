@@ -91,7 +91,7 @@ DeckFiles modtran6_files(const DeckGeometry& g, const std::vector<DeckRun>& runs
               {"M4", model},
               {"M5", model},
               {"M6", model},
-              {"CO2MX", 420.0}}},
+              {"CO2MX", kDeckCo2_ppm}}},
             {"AEROSOLS", {{"IHAZE", "AER_RURAL"}, {"VIS", g.visibility_km}}},
             {"GEOMETRY", geometry},
             {"SURFACE", {{"SURFTYPE", "REFL_CONSTANT"}, {"SURREF", run.albedo}, {"GNDALT", g.ground_elevation_km}}},
@@ -117,7 +117,8 @@ DeckFiles modtran5_files(const DeckGeometry& g, const std::vector<DeckRun>& runs
         const auto& run = runs[i];
         tape5 += fmt::format("TM  {}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:8.3f}{:7.2f}\n", model, 2,
                              run.sun ? 2 : 1, 1, model, model, model, model, model, model, 0, 0, 0, 0.0, run.albedo);
-        tape5 += fmt::format("TFF  8   0{:10.3f}{:10}{:10}     F F F\n", 420.0, "", "");
+        // DISORT, with azimuth dependence where the sun has one (DISAZM): else scattered light is the same at 0, 90 and 180 degrees.
+        tape5 += fmt::format("T{}F  8   0{:10.3f}{:10}{:10}     F F F\n", run.sun ? 'T' : 'F', kDeckCo2_ppm, "", "");
         tape5 += fmt::format("{:5d}{:5d}{:5d}{:5d}{:5d}{:5d}{:10.5f}{:10.5f}{:10.5f}{:10.5f}{:10.5f}\n", 1, 0, 0, 0, 0, 0,
                              g.visibility_km, 0.0, 0.0, 0.0, g.ground_elevation_km);
         tape5 += fmt::format("{:10.5f}{:10.5f}{:10.5f}{:10.5f}{:10.5f}{:10.5f}{:5d}{:5}{:10.5f}\n",

@@ -156,6 +156,7 @@ TEST(AtmosphereDeck, Tape5HasTheCardsInTheirColumns) {
     for (std::string line; std::getline(in, line);) cards.push_back(line);
     ASSERT_GE(cards.size(), 8U);
     EXPECT_EQ(cards[0].substr(0, 20), "TM  2    2    2    1");  // mid-latitude summer, slant path, thermal and sun
+    EXPECT_EQ(cards[1].substr(0, 6), "TTF  8");                 // DISORT of 8 streams that knows the sun's azimuth
     EXPECT_NEAR(std::stod(cards[2].substr(30, 10)), 23.0, 1e-9);
     EXPECT_NEAR(std::stod(cards[3].substr(20, 10)), 180.0, 1e-4);
     EXPECT_EQ(cards[4].substr(0, 10), "    2    2");
@@ -166,6 +167,29 @@ TEST(AtmosphereDeck, Tape5HasTheCardsInTheirColumns) {
     const auto wrong = pyroscene_cli("atmosphere-deck " + scenario + " --acquisition nobody -o " + scratch.path().string());
     EXPECT_EQ(wrong.exit_code, 3);
     EXPECT_NE(wrong.output.find("camera_150s"), std::string::npos) << wrong.output;
+}
+
+TEST(AtmosphereDeck, HoldsWhatTheAcquisitionTakes) {
+    // WASP's infrared group alone: 0.9 to 9.2 um, not the 0.4 um of its visible camera; and no deck for a scene without air.
+    const ScratchFolder scratch;
+    const auto minimal = source_folder() / "scenarios/minimal";
+    const auto deck = [&](const std::string& atmosphere) {
+        save(scratch / "s.yaml",
+             "pyroscene: 1\ninputs:\n  terrain:   {file: " + (minimal / "dem.tif").string() + "}\n  heat_flux: {file: " +
+                 (minimal / "heat_flux.tif").string() + "}\nstart: 2021-08-12T20:00:00Z\natmosphere: {model: " + atmosphere +
+                 "}\nacquisitions:\n  - {id: a, sensor: wasp, groups: [ir], time_s: 120, platform: {over: "
+                 "centre, altitude_agl_m: 3000}}\n");
+        const auto folder = scratch.path().string();
+        return pyroscene_cli("atmosphere-deck " + folder + "/s.yaml --acquisition a --for libradtran -o " + folder);
+    };
+    ASSERT_EQ(deck("tropical").exit_code, 0);
+    std::ifstream in(scratch / "path_solar_0_0.inp");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_NE(text.find("wavelength 891 5000\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("mixing_ratio CO2 420\n"), std::string::npos) << text;
+    const auto none = deck("none");
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_NE(none.output.find("atmosphere.model"), std::string::npos) << none.output;
 }
 
 TEST(ImportAtmosphere, RefusesWhatItCannotUse) {
