@@ -98,11 +98,16 @@ void Assembly::normalise() {
 void Assembly::make_path_axes() {
     for (const auto& run : runs_) {
         if (!is_path(run)) continue;
-        const auto need = [&](const std::optional<double>& value, const char* name) {
-            if (!value) throw input_error(run.source, fmt::format("the {} of this run is unknown; give it", name));
+        const auto need = [&](const std::optional<double>& value, const char* name, const char* option) {
+            if (!value) throw input_error(run.source, fmt::format("the {} of this run is unknown; give {}", name, option));
         };
-        need(run.geometry.sensor_altitude_km, "sensor altitude");
-        need(run.geometry.view_zenith_deg, "view zenith angle");
+        need(run.geometry.sensor_altitude_km, "sensor altitude", "--sensor-altitude-km");
+        need(run.geometry.view_zenith_deg, "view zenith angle", "--view-zenith-deg");
+        constexpr double kLevel_deg = 89.0;
+        if (*run.geometry.view_zenith_deg > kLevel_deg)
+            throw input_error(run.source, fmt::format("the path of this run is level (view zenith {:.4g} deg), expected one "
+                                                      "from a sensor down to the ground",
+                                                      *run.geometry.view_zenith_deg));
     }
     altitude_km_ = distinct(runs_, is_path, &RunGeometry::sensor_altitude_km);
     view_deg_ = distinct(runs_, is_path, &RunGeometry::view_zenith_deg);
@@ -118,7 +123,8 @@ void Assembly::make_axes() {
     if (without_sun_) return;
     sun_deg_ = distinct(runs_, looks_down, &RunGeometry::sun_zenith_deg);
     if (sun_deg_.empty())
-        throw input_error(runs_.front().source, "the sun zenith angle is unknown; give it, or import without the sun");
+        throw input_error(runs_.front().source,
+                          "the sun zenith angle is unknown; give --sun-zenith-deg, or import without the sun (--no-sun)");
     const auto scatters = [](const AtmosphereRun& r) { return looks_down(r) && !r.path_solar.empty(); };
     const auto found = distinct(runs_, scatters, &RunGeometry::relative_azimuth_deg);
     if (found.size() == 3 && same(0.0, found[0]) && same(90.0, found[1]) && same(180.0, found[2]))

@@ -132,10 +132,11 @@ void Assembly::find_sun(Ground& g, std::size_t s) {
         }
         const bool named = any(&AtmosphereRun::direct_normal, lit);
         if (!named && !any_known(seen))
-            throw input_error("import-atmosphere",
-                              fmt::format("no run gives the sun at the ground for sun zenith {:.4g} deg: a run with ground "
-                                          "albedo above 0, or one of the direct irradiance; or import without the sun",
-                                          sun_deg_[s]));
+            throw input_error(
+                "import-atmosphere",
+                fmt::format("no run gives the sun at the ground for sun zenith {:.4g} deg: a run with ground "
+                            "albedo above 0, or one of the direct irradiance; or import without the sun (--no-sun)",
+                            sun_deg_[s]));
         direct = collect(&AtmosphereRun::direct_normal, lit, 0.0);
         for (std::size_t l = 0; l < n && !named; ++l) direct[l] = std::isnan(seen[l]) ? 0.0 : seen[l];
         if (any(&AtmosphereRun::diffuse, lit)) {

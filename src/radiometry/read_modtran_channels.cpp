@@ -85,7 +85,7 @@ void add_row(AtmosphereRun& run, const Row& r, const std::string& where) {
 void finish(AtmosphereRun& run, const RunHints& hints, const Spectrum& sun) {
     run.geometry = hints.geometry;
     if (!run.geometry.sun_zenith_deg)
-        throw input_error(run.source, "a channel file does not say where the sun stood; give its zenith angle");
+        throw input_error(run.source, "a channel file does not say where the sun stood; give --sun-zenith-deg");
     const double cosine = std::cos(*run.geometry.sun_zenith_deg * kDegree_rad);
     std::vector<double> ratios;
     for (std::size_t i = 0; i < run.wavelength_um.size(); ++i) {

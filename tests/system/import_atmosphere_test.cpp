@@ -215,7 +215,9 @@ TEST(ImportAtmosphere, RefusesWhatItCannotUse) {
     refuses(with("cut.tp7", dark, " -9999.", ""), "cut off");
     refuses(with("stars.tp7", dark, "0.00E+00 0.00E+00", "******** 0.00E+00"), "expected a number");
     refuses(samples + "/modtran5_tape7_iemsct2_imult1.txt", "no run looks from a sensor down");
-    refuses(samples + "/modtran5_tape7_iemsct0.txt", "the sensor altitude of this run is unknown");
+    refuses(samples + "/modtran5_tape7_iemsct0.txt",
+            "the sensor altitude of this run is unknown; give --sensor-altitude-km");
+    refuses(samples + "/modtran5_tape7_iemsct3.txt --sun-zenith-deg 30", "the path of this run is level");
     save(scratch / "dark.tp7", dark);
     refuses(folder + "/dark.tp7", "no run gives the sun at the ground");
     refuses(folder + "/dark.tp7 --unit uW_cm2_nm", "with W_cm2_cm-1 it would fit");
