@@ -6,6 +6,7 @@
 #include "base/constants.h"
 #include "base/csv.h"
 #include "base/error.h"
+#include "gis/geodesy.h"
 #include "pipeline/acquisition.h"
 
 namespace pyroscene::pipeline {
@@ -38,6 +39,21 @@ sensors::Trajectory flown_path(const Acquisition& a) {
     return path;
 }
 
+/// A geostationary sensor sees what it sees; the map has to lie above its horizon.
+void check_horizon(const Acquisition& a, const inputs::SceneInputs& in, const sensors::Sensor& sensor,
+                   const sensors::Trajectory& path) {
+    auto target = in.centre;
+    target.h_m = in.mean_height_m;
+    const Vec3 ground = gis::ecef_from_geodetic(target);
+    const Vec3 up = gis::ecef_from_geodetic({target.lat_deg, target.lon_deg, target.h_m + 1.0}) - ground;
+    const Vec3 towards = normalized(gis::ecef_from_geodetic(path.at(0.0).position) - ground);
+    const double zenith_deg = std::acos(std::clamp(dot(up, towards), -1.0, 1.0)) / kDegree_rad;
+    if (zenith_deg > 90.0)
+        throw input_error(subject(a), fmt::format("the map lies below the horizon of sensor '{}' above {:.1f} E (it stands "
+                                                  "{:.0f} deg from the zenith)",
+                                                  sensor.id, *sensor.orbit->geostationary_longitude_deg, zenith_deg));
+}
+
 /// Direction in which a pass sees its place.
 sensors::Trajectory pass_path(const Acquisition& a, const inputs::SceneInputs& in, const fire::FireState* state,
                               const sensors::Sensor& sensor, const sensors::ScanLaw& law) {
@@ -53,7 +69,11 @@ sensors::Trajectory pass_path(const Acquisition& a, const inputs::SceneInputs& i
     if (stands && a.platform.scan_angle_deg != 0.0)
         throw input_error(subject(a),
                           "platform.scan_angle_deg has no place in a geostationary pass, which sees what it sees");
-    if (stands) return sensors::geostationary(*sensor.orbit);
+    if (stands) {
+        auto path = sensors::geostationary(*sensor.orbit);
+        check_horizon(a, in, sensor, path);
+        return path;
+    }
     // The place, on the ground.
     Acquisition over = a;
     over.platform.altitude_m = in.highest_m + 1.0;
