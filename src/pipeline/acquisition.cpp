@@ -165,6 +165,15 @@ radiometry::SpectralGrid make_grid(const std::vector<Spectrum>& responses, const
     return radiometry::make_spectral_grid(responses, structure);
 }
 
+/// The same; a table of the user's has to cover it.
+radiometry::SpectralGrid covered_grid(const Scenario& scenario, const std::vector<Spectrum>& responses,
+                                      const OpticalTables& tables, const FlameGas& gas,
+                                      const radiometry::AtmosphereConditions& conditions) {
+    auto grid = make_grid(responses, tables, gas, conditions);
+    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, tables.air->tables.front(), grid);
+    return grid;
+}
+
 /// What the ground around the scene is made of: the surface named in the scenario (added to `names` when the map has none
 /// of it), else the cover that most of the map has; -1 = nothing is known there.
 int surroundings_material(const Scenario& scenario, const inputs::SceneInputs& in, std::vector<std::string>& names) {
@@ -222,7 +231,7 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
     const auto conditions = conditions_of(scenario, tables, sensor_agl_m, sun);
     optics.flame_tables = tables.flame;
     if (optics.flame_tables) optics.flame_gas = fire.gas;
-    out.grid = make_grid(responses, tables, fire.gas, conditions);
+    out.grid = covered_grid(scenario, responses, tables, fire.gas, conditions);
     const int n = out.grid.size();
     optics.lambda_count = n;
     optics.lambda_um = out.grid.lambda_um;
@@ -252,7 +261,6 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
         for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
             albedo[i] += share[m] * static_cast<double>(optics.reflectance[m * static_cast<std::size_t>(n) + i]);
 
-    if (scenario.atmosphere.file) check_table_covers(*scenario.atmosphere.file, tables.air->tables.front(), out.grid);
     out.atmosphere = radiometry::make_view_atmosphere(*tables.air, conditions, out.grid, albedo, tables.ground_heights_m);
     out.air_K = air_temperature_K(*tables.air, conditions);
     for (const auto& warning : radiometry::atmosphere_warnings(*tables.air, {conditions, largest_view_zenith_rad, 0.0}))
@@ -263,7 +271,8 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
 radiometry::SpectralGrid transport_grid(const Scenario& scenario, const inputs::SceneInputs& in, const OpticalTables& tables,
                                         const std::vector<Spectrum>& responses, double sensor_agl_m,
                                         const radiometry::SunPosition& sun) {
-    return make_grid(responses, tables, flame_gas(scenario, in), conditions_of(scenario, tables, sensor_agl_m, sun));
+    return covered_grid(scenario, responses, tables, flame_gas(scenario, in),
+                        conditions_of(scenario, tables, sensor_agl_m, sun));
 }
 
 }  // namespace pyroscene::pipeline

@@ -116,7 +116,9 @@ std::vector<std::string> atmosphere_warnings(const AtmosphereSet& set, const Atm
     else if (point.view_zenith_rad > limits.view_zenith_rad + kSlack)
         out.push_back(fmt::format("view zenith {:.6g} deg is beyond the tables; Beer's law goes on from {:.6g} deg",
                                   point.view_zenith_rad / kDegree_rad, limits.view_zenith_rad / kDegree_rad));
-    if (c.sun_zenith_rad > limits.sun_zenith_rad + kSlack && c.sun_zenith_rad < 0.5 * kPi)
+    const auto& direct = set.tables.front().direct_solar_irradiance;
+    const bool has_sun = std::any_of(direct.begin(), direct.end(), [](float E) { return E > 0.0F; });
+    if (has_sun && c.sun_zenith_rad > limits.sun_zenith_rad + kSlack && c.sun_zenith_rad < 0.5 * kPi)
         out.push_back(
             fmt::format("sun zenith {:.2f} deg is beyond the tables; {:.0f} deg is used, its light scaled "
                         "with the cosine",
@@ -126,7 +128,6 @@ std::vector<std::string> atmosphere_warnings(const AtmosphereSet& set, const Atm
     if (limits.altitude_m < kTop_m && c.sensor_altitude_agl_m > 1.02 * highest_m)
         clamped("sensor altitude", c.sensor_altitude_agl_m, highest_m, "m");
     const double first_sun_rad = set.tables.front().solar_zenith_deg.front() * kDegree_rad;
-    const bool has_sun = set.tables.front().direct_solar_irradiance.front() > 0.0F;
     if (c.sun_zenith_rad < first_sun_rad - 1.0 * kDegree_rad && has_sun)
         clamped("sun zenith", c.sun_zenith_rad / kDegree_rad, first_sun_rad / kDegree_rad, "deg");
     if (c.sensor_altitude_agl_m < 0.0) clamped("sensor altitude", c.sensor_altitude_agl_m, 0.0, "m");

@@ -169,6 +169,26 @@ TEST(AtmosphereDeck, Tape5HasTheCardsInTheirColumns) {
     EXPECT_NE(wrong.output.find("camera_150s"), std::string::npos) << wrong.output;
 }
 
+TEST(ImportAtmosphere, CheckSeesThatATableDoesNotCoverTheBands) {
+    const ScratchFolder scratch;
+    const auto minimal = source_folder() / "scenarios/minimal";
+    save(scratch / "air.csv",
+         "wavelength_um,transmittance,path_thermal_W_m2_sr_um,thermal_irradiance_W_m2_um\n7.5,0.6,3,12\n15,0.6,3,12\n");
+    save(scratch / "s.yaml", "pyroscene: 1\ninputs:\n  terrain:   {file: " + (minimal / "dem.tif").string() +
+                                 "}\n  heat_flux: {file: " + (minimal / "heat_flux.tif").string() +
+                                 "}\nstart: 2021-08-12T20:00:00Z\natmosphere: {file: air.nc}\nacquisitions:\n  - {id: a, "
+                                 "sensor: " +
+                                 (minimal / "camera.yaml").string() +
+                                 ", time_s: 120, platform: {over: centre, altitude_agl_m: 300}}\n");
+    const auto folder = scratch.path().string();
+    const auto made = pyroscene_cli("import-atmosphere " + folder + "/air.csv --no-sun --sensor-altitude-km 0.3 " +
+                                    "--view-zenith-deg 0 --ground-elevation-km 0.9 -o " + folder + "/air.nc");
+    ASSERT_EQ(made.exit_code, 0) << made.output;
+    const auto check = pyroscene_cli("check " + folder + "/s.yaml");
+    EXPECT_EQ(check.exit_code, 3) << check.output;
+    EXPECT_NE(check.output.find("air.nc: covers 7.5 to 15 um, the bands need"), std::string::npos) << check.output;
+}
+
 TEST(AtmosphereDeck, HoldsWhatTheAcquisitionTakes) {
     // WASP's infrared group alone: 0.9 to 9.2 um, not the 0.4 um of its visible camera; and no deck for a scene without air.
     const ScratchFolder scratch;
