@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -18,6 +18,7 @@ namespace {
 
 struct CommandLine {
     std::string name, csv, output, plot;
+    bool json = false, help = false;
     std::map<std::string, std::string> values;
 };
 
@@ -27,6 +28,10 @@ CommandLine parse(const std::vector<std::string>& words) {
         std::string key = words[i];
         if (i == 0 && !key.starts_with("-")) {
             line.name = key;
+            continue;
+        }
+        if (key == "--json" || key == "--help" || key == "-h") {
+            (key == "--json" ? line.json : line.help) = true;
             continue;
         }
         if (key != "-o" && !key.starts_with("--")) throw std::invalid_argument(fmt::format("'{}' is no option", key));
@@ -73,20 +78,128 @@ Arguments complete(const Calculation& calculation, std::map<std::string, std::st
 
 std::string number_text(double v) { return std::isnan(v) ? "nan" : fmt::format("{:.12g}", v); }
 
-std::string compute_table(const Calculation& calculation, const CommandLine& line) {
+/// Rows of what was asked for, each with its results behind.
+struct ResultTable {
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::string>> rows;
+};
+
+void append(std::vector<std::string>& row, const std::vector<double>& results) {
+    for (const double v : results) row.push_back(number_text(v));
+}
+
+ResultTable compute_table(const Calculation& calculation, const CommandLine& line) {
     const auto table = read_csv(line.csv);
-    std::ostringstream out;
-    out << fmt::format("{},{}\n", fmt::join(table.columns, ","), fmt::join(calculation.results, ","));
+    ResultTable out{table.columns, table.rows};
+    out.columns.insert(out.columns.end(), calculation.results.begin(), calculation.results.end());
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         auto values = line.values;  // options on the command line hold for rows that do not say otherwise
         for (std::size_t c = 0; c < table.columns.size(); ++c)
             if (!table.rows[r][c].empty()) values[table.columns[c]] = table.rows[r][c];
         const auto where = fmt::format("{}:{}", table.path, table.row_lines[r]);
-        std::vector<std::string> results;
-        for (const double v : calculation.compute(complete(calculation, values, where))) results.push_back(number_text(v));
-        out << fmt::format("{},{}\n", fmt::join(table.rows[r], ","), fmt::join(results, ","));
+        append(out.rows[r], calculation.compute(complete(calculation, values, where)));
     }
-    return out.str();
+    return out;
+}
+
+/// Without a wavelength, all of them.
+ResultTable compute_spectrum(const Calculation& calculation, const CommandLine& line) {
+    auto values = line.values;
+    values["wavelength_um"] = "1";
+    ResultTable out{{"wavelength_um"}, {}};
+    out.columns.insert(out.columns.end(), calculation.results.begin(), calculation.results.end());
+    for (const double lambda_um : calculation.spectrum_um(complete(calculation, values, "calc " + line.name))) {
+        values["wavelength_um"] = fmt::format("{}", lambda_um);
+        out.rows.push_back({values["wavelength_um"]});
+        append(out.rows.back(), calculation.compute(complete(calculation, values, "calc " + line.name)));
+    }
+    return out;
+}
+
+/// The options that hold, then the results.
+ResultTable compute_one(const Calculation& calculation, const CommandLine& line) {
+    const auto arguments = complete(calculation, line.values, "calc " + line.name);
+    ResultTable out{{}, {{}}};
+    for (const auto& option : calculation.options)
+        if (arguments.has(option.name)) {
+            out.columns.push_back(option.name);
+            out.rows[0].push_back(arguments.text(option.name));
+        }
+    out.columns.insert(out.columns.end(), calculation.results.begin(), calculation.results.end());
+    append(out.rows[0], calculation.compute(arguments));
+    return out;
+}
+
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string quoted;
+    for (const char c : text) quoted += c == '"' ? std::string(2, c) : std::string(1, c);
+    return '"' + quoted + '"';
+}
+
+std::string csv_line(const std::vector<std::string>& fields) {
+    std::vector<std::string> out;
+    for (const auto& field : fields) out.push_back(csv_field(field));
+    return fmt::format("{}\n", fmt::join(out, ","));
+}
+
+std::string csv_text(const ResultTable& table) {
+    std::string out = csv_line(table.columns);
+    for (const auto& row : table.rows) out += csv_line(row);
+    return out;
+}
+
+/// A number where the text is one; what is not finite has no place in JSON.
+std::string json_value(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (!text.empty() && *end == '\0') return std::isfinite(value) ? fmt::format("{}", value) : "null";
+    std::string quoted;
+    for (const char c : text) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        quoted += c;
+    }
+    return '"' + quoted + '"';
+}
+
+/// A row as an object by column name; several as a list.
+std::string json_text(const ResultTable& table) {
+    std::vector<std::string> rows;
+    for (const auto& row : table.rows) {
+        std::vector<std::string> members;
+        for (std::size_t c = 0; c < row.size(); ++c)
+            members.push_back(fmt::format("{}: {}", json_value(table.columns[c]), json_value(row[c])));
+        rows.push_back(fmt::format("{{{}}}", fmt::join(members, ", ")));
+    }
+    return rows.size() == 1 ? rows[0] + "\n" : fmt::format("[{}]\n", fmt::join(rows, ",\n "));
+}
+
+std::string lines_text(const Calculation& calculation, const ResultTable& table) {
+    std::string out;
+    const auto& row = table.rows.front();
+    const std::size_t first = row.size() - calculation.results.size();
+    for (std::size_t i = 0; i < calculation.results.size(); ++i)
+        out += fmt::format("{} = {}\n", calculation.results[i], row[first + i]);
+    return out;
+}
+
+/// Options, results and one example of a calculation.
+std::string help_of(const Calculation& c) {
+    std::string help = fmt::format(
+        "{}\nUsage: pyroscene calc {} --option value ...\n\nOptions (each is also a column of --csv):\n", c.help, c.name);
+    for (const auto& o : c.options)
+        help += fmt::format("  --{:<30}{}\n", o.name,
+                            o.fallback                                   ? "default " + *o.fallback
+                            : o.optional                                 ? "if it matters"
+                            : c.spectrum_um && o.name == "wavelength_um" ? "without it: the whole spectrum, as CSV"
+                                                                         : "required");
+    help += fmt::format("Results:\n  {}\n", fmt::join(c.results, ", "));
+    help += "Input and output:\n";
+    help += "  --csv FILE                      computes every row of a table and appends the results\n";
+    help += "  -o,--output FILE                .csv or .json: options and results as a table; else as printed\n";
+    help += "  --json                          prints JSON\n";
+    if (c.plot) help += "  --plot FILE                     draws the spectrum (PNG)\n";
+    return help + fmt::format("\nExample: pyroscene calc {} {}\n", c.name, c.example);
 }
 
 }  // namespace
@@ -135,6 +248,10 @@ void run_calc(const std::vector<std::string>& words) {
     const auto line = parse(words);
     if (line.name.empty()) throw std::invalid_argument("calc: which one?\n" + calc_help());
     const auto& calculation = find(line.name);
+    if (line.help) {
+        std::cout << help_of(calculation);
+        return;
+    }
     for (const auto& [key, value] : line.values)
         if (std::none_of(calculation.options.begin(), calculation.options.end(),
                          [&](const auto& o) { return o.name == key; })) {
@@ -148,16 +265,15 @@ void run_calc(const std::vector<std::string>& words) {
         auto values = line.values;
         values.emplace("wavelength_um", "1");  // a plot shows all of them
         calculation.plot(complete(calculation, std::move(values), "calc " + line.name), line.plot);
-        if (!line.values.contains("wavelength_um") && line.csv.empty()) return;
+        if (!line.values.contains("wavelength_um") && line.csv.empty() && line.output.empty()) return;
     }
-    std::string text;
-    if (!line.csv.empty()) {
-        text = compute_table(calculation, line);
-    } else {
-        const auto results = calculation.compute(complete(calculation, line.values, "calc " + line.name));
-        for (std::size_t i = 0; i < results.size(); ++i)
-            text += fmt::format("{} = {}\n", calculation.results[i], number_text(results[i]));
-    }
+    const bool spectrum = calculation.spectrum_um && line.csv.empty() && !line.values.contains("wavelength_um");
+    const auto table = !line.csv.empty() ? compute_table(calculation, line)
+                       : spectrum        ? compute_spectrum(calculation, line)
+                                         : compute_one(calculation, line);
+    const auto text = line.json || line.output.ends_with(".json")                      ? json_text(table)
+                      : !line.csv.empty() || spectrum || line.output.ends_with(".csv") ? csv_text(table)
+                                                                                       : lines_text(calculation, table);
     if (line.output.empty())
         std::cout << text;
     else

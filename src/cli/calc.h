@@ -34,17 +34,21 @@ struct CalcOption {
 /// One formula or table look-up of `pyroscene calc`.
 struct Calculation {
     std::string name, help;
+    std::string example;  ///< options that give a result, for --help
     std::vector<CalcOption> options;
     std::vector<std::string> results;
     std::function<std::vector<double>(const Arguments&)> compute;
     /// Draws the spectrum into a PNG file (--plot), over all wavelengths. Empty: has none.
     std::function<void(const Arguments&, const std::string& file)> plot = {};
+    /// Wavelengths of that spectrum, at which it is printed when none is given. Empty: has none.
+    std::function<std::vector<double>(const Arguments&)> spectrum_um = {};
 };
 
 /// All of them; a new one is one row (src/cli/calculations.cpp).
 const std::vector<Calculation>& calculations();
 
-/// `pyroscene calc NAME ...` with the words after `calc`. Throws an input error; std::invalid_argument for a wrong command line.
+/// `pyroscene calc NAME ...` with the words after `calc`; with --help among them, what the calculation takes and gives.
+/// Throws an input error; std::invalid_argument for a wrong command line.
 void run_calc(const std::vector<std::string>& words);
 
 /// The list of names, options and results, for --help.

@@ -106,11 +106,12 @@ void plot_atmosphere(const Arguments& a, const std::string& file) {
         return drawing::PlotSeries{name, t.wavelength_um, y, false};
     };
     std::vector<drawing::LinePlot> plots{
-        diagram("1", false, 0.0,
+        diagram("fraction", false, 0.0,
                 {curve("transmittance", t.transmittance), curve("spherical albedo", t.spherical_albedo),
                  curve("diffuse transmittance", t.diffuse_transmittance)}),
-        diagram("W m-2 sr-1 um-1", true, 1e-4, {curve("path thermal", t.path_thermal), curve("path solar", t.path_solar)}),
-        diagram("W m-2 um-1", true, 1e-3,
+        diagram("radiance / W m-2 sr-1 um-1", true, 1e-4,
+                {curve("path thermal", t.path_thermal), curve("path solar", t.path_solar)}),
+        diagram("irradiance / W m-2 um-1", true, 1e-3,
                 {curve("direct sun, normal", t.direct_normal), curve("sky, sunlit", t.diffuse),
                  curve("sky, thermal", t.thermal_sky)})};
     plots.front().title =
@@ -147,6 +148,7 @@ const std::vector<Calculation>& calculations() {
     static const std::vector<Calculation> table = {
         {"planck",
          "spectral radiance of a blackbody",
+         "--wavelength_um 4 --temperature_K 1100",
          {{"wavelength_um", {}}, {"temperature_K", {}}},
          {"radiance_W_m2_sr_um"},
          [](const Arguments& a) {
@@ -154,6 +156,7 @@ const std::vector<Calculation>& calculations() {
          }},
         {"brightness-temperature",
          "temperature of the blackbody with a spectral radiance",
+         "--wavelength_um 3.96 --radiance_W_m2_sr_um 0.6726",
          {{"wavelength_um", {}}, {"radiance_W_m2_sr_um", {}}},
          {"temperature_K"},
          [](const Arguments& a) {
@@ -162,6 +165,7 @@ const std::vector<Calculation>& calculations() {
          }},
         {"band-radiance",
          "response-weighted mean radiance of a blackbody in a sensor band or a boxcar",
+         "--sensor wasp --band MWIR --temperature_K 600",
          {{"sensor", {}, true}, {"band", {}, true}, {"lower_um", {}, true}, {"upper_um", {}, true}, {"temperature_K", {}}},
          {"radiance_W_m2_sr_um"},
          [](const Arguments& a) {
@@ -169,6 +173,7 @@ const std::vector<Calculation>& calculations() {
          }},
         {"band-temperature",
          "temperature of the blackbody with a band radiance",
+         "--sensor wasp --band MWIR --radiance_W_m2_sr_um 273.55",
          {{"sensor", {}, true},
           {"band", {}, true},
           {"lower_um", {}, true},
@@ -179,7 +184,9 @@ const std::vector<Calculation>& calculations() {
              return std::vector{radiometry::band_brightness_temperature(a.number("radiance_W_m2_sr_um"), response_of(a))};
          }},
         {"atmosphere",
-         "terms of the atmosphere look-up table; altitude above the ground, ground of emissivity 1 and albedo 0",
+         "terms of the atmosphere look-up table; altitude above the ground, ground of emissivity 1 and albedo 0; models "
+         "midlatitude_summer, midlatitude_winter, subarctic_summer, tropical, us_standard_1976",
+         "--altitude_m 4200 --wavelength_um 10.5",
          {{"model", "midlatitude_summer"},
           {"visibility_km", "23"},
           {"altitude_m", {}},
@@ -191,7 +198,8 @@ const std::vector<Calculation>& calculations() {
          {"transmittance", "path_thermal_W_m2_sr_um", "path_solar_W_m2_sr_um", "direct_irradiance_W_m2_um",
           "diffuse_irradiance_W_m2_um", "thermal_irradiance_W_m2_um", "spherical_albedo"},
          atmosphere,
-         plot_atmosphere},
+         plot_atmosphere,
+         [](const Arguments& a) { return atmosphere_set(a).tables.front().wavelength_um; }},
         flame_emissivity_calculation(),
         flame_height_calculation(),
         flame_tilt_calculation(),
@@ -200,6 +208,7 @@ const std::vector<Calculation>& calculations() {
         spread_calculation(),
         {"scar-temperature",
          "burn scar cooling: double_exponential (thesis eq 4.17, numbers of 4.18) or single_exponential (2.9 with ambient)",
+         "--time_s 600",
          {{"time_s", {}},
           {"model", "double_exponential"},
           {"amplitude1_K", {}, true},

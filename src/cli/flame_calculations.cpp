@@ -146,6 +146,7 @@ Calculation flame_height_calculation() {
     return {"flame-height",
             fmt::format("vertical height and length along the leaning axis of a flame; methods {}",
                         fmt::join(names_of(fire::kFlameHeightMethods), ", ")),
+            "--heat_flux_W_m2 5.92e6",
             {{"method", "heat_flux"},
              {"heat_flux_W_m2", {}, true},
              {"alpha", "1"},
@@ -173,6 +174,7 @@ Calculation flame_height_calculation() {
 Calculation flame_tilt_calculation() {
     return {"flame-tilt",
             fmt::format("flame tilt from the vertical; methods {}", fmt::join(names_of(fire::kFlameTiltMethods), ", ")),
+            "--wind_m_s 3 --fireline_intensity_kW_m 500",
             {{"method", "buoyant_velocity"},
              {"wind_m_s", {}},
              {"fireline_intensity_kW_m", {}, true},
@@ -196,6 +198,7 @@ Calculation thesis_potassium_calculation() {
     return {"thesis-potassium",
             "potassium lines as appendix A of the thesis computes them, kept for its figures; flame-emissivity has the "
             "model to use",
+            "--temperature_K 1100",
             {{"temperature_K", {}}, {"emissivity", "1"}},
             {"ionised_fraction", "power_W", "ratio_766", "ratio_770"},
             [](const Arguments& a) {
@@ -211,6 +214,7 @@ Calculation thesis_potassium_calculation() {
 Calculation alkali_width_calculation() {
     return {"alkali-width",
             "equivalent width of the doublets of potassium (767, 770 nm) and sodium (589 nm) in a homogeneous flame",
+            "--temperature_K 1100 --path_m 1",
             {{"temperature_K", {}}, {"path_m", {}}, {"potassium_ppm", "1"}, {"sodium_ppm", "0"}, {"pressure_atm", "1"}},
             {"potassium_nm", "sodium_nm"},
             [](const Arguments& a) {

@@ -87,7 +87,7 @@ void plot(const Arguments& a, const std::string& file) {
     upper.x = lower.x = {"wavelength / um", true, {}, {}};
     upper.y = {"emissivity", false, 0.0, 1.0};
     upper.series = {{"", lambda_um, emissivity}};
-    lower.y = {"W m-2 sr-1 um-1", true, 1e-4 * *std::max_element(black.begin(), black.end()), {}};
+    lower.y = {"radiance / W m-2 sr-1 um-1", true, 1e-4 * *std::max_element(black.begin(), black.end()), {}};
     lower.series = {{"flame", lambda_um, radiance}, {"black body", lambda_um, black}};
     drawing::write_line_plots(file, std::vector{upper, lower});
 }
@@ -99,6 +99,7 @@ Calculation flame_emissivity_calculation() {
     const auto words = [](double value) { return fmt::format("{:g}", value); };
     return {"flame-emissivity",
             "emissivity and radiance of a homogeneous flame (soot, hot gas, K and Na lines) at one vacuum wavelength",
+            "--temperature_K 1100 --path_m 1 --wavelength_um 3.9",
             {{"wavelength_um", {}},
              {"temperature_K", {}},
              {"path_m", {}},
@@ -113,7 +114,8 @@ Calculation flame_emissivity_calculation() {
              {"pressure_atm", "1"}},
             {"emissivity", "radiance_W_m2_sr_um"},
             compute,
-            plot};
+            plot,
+            [](const Arguments&) { return plot_wavelengths_um(); }};
 }
 
 }  // namespace pyroscene::cli

@@ -263,14 +263,13 @@ void add_export(CLI::App& app, cli::ExportOptions& o) {
     sub->footer("Example: pyroscene export scenarios/minimal/scenario.yaml --time_s 60 --format csv -o out/flames.csv");
 }
 
-/// The words after `calc`. Its options are those of the formula, so they are not the parser's business (but --help is).
+/// The words after `calc`. Its options are those of the formula, so they are not the parser's business (but --help without a name is).
 std::vector<std::string> calc_words(int argc, char** argv) {
     int i = 1;
     while (i < argc && std::string_view(argv[i]).starts_with("-")) ++i;
     if (i >= argc || std::string_view(argv[i]) != "calc") return {};
     std::vector<std::string> words(argv + i + 1, argv + argc);
-    for (const auto& word : words)
-        if (word == "--help" || word == "-h") return {};
+    if (words.size() == 1 && (words[0] == "--help" || words[0] == "-h")) return {};
     return words;
 }
 
@@ -321,8 +320,10 @@ int main(int argc, char** argv) {
     sensor->footer("Example: pyroscene sensors wasp");
     auto* calc = app.add_subcommand("calc", "one formula or table look-up; with --csv, every row of a table");
     calc->add_option("NAME", a.calc_name, "what to compute, and its options");
-    calc->footer("pyroscene calc NAME [--option value ...] | --csv IN.csv [-o OUT.csv]\n" + cli::calc_help() +
-                 "Example: pyroscene calc planck --wavelength_um 4 --temperature_K 1100");
+    calc->footer(
+        "pyroscene calc NAME [--option value ...] | --csv IN.csv [-o OUT.csv|OUT.json] [--json] [--plot OUT.png]\n"
+        "pyroscene calc NAME --help: its options one by one, and an example\n" +
+        cli::calc_help() + "Example: pyroscene calc planck --wavelength_um 4 --temperature_K 1100");
 
     std::string command_line;
     cli::add_atmosphere_commands(app, a.quiet, command_line);

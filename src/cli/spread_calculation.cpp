@@ -76,6 +76,7 @@ Calculation spread_calculation() {
             "surface fire of a fuel model (Rothermel 1972) in its fastest direction; wind from, aspect downslope, both "
             "clockwise "
             "from north; wind_mode midflame, 20ft or 10m",
+            "--fuel_model 1 --m1h_pct 5 --m10h_pct 6 --m100h_pct 7 --mherb_pct 60 --mwoody_pct 90 --wind_m_s 2",
             {{"fuel_model", {}},
              {"m1h_pct", {}},
              {"m10h_pct", {}},

@@ -126,6 +126,41 @@ TEST(Calc, FlameEmissivityPlotsItsSpectrum) {
     EXPECT_EQ(pyroscene_cli("calc flame-emissivity --temperature_K 1100 --plot " + file).exit_code, 3);
 }
 
+TEST(Calc, EveryNameHasHelpWithAnExampleThatWorks) {
+    for (const std::string name :
+         {"planck", "brightness-temperature", "band-radiance", "band-temperature", "atmosphere", "flame-emissivity",
+          "flame-height", "flame-tilt", "thesis-potassium", "alkali-width", "spread", "scar-temperature"}) {
+        const auto help = pyroscene_cli("calc " + name + " --help");
+        ASSERT_EQ(help.exit_code, 0) << name;
+        const std::string tag = "Example: pyroscene ";
+        const auto at = help.output.find(tag + "calc " + name);
+        ASSERT_NE(at, std::string::npos) << help.output;
+        EXPECT_EQ(help.output.find("planck") == std::string::npos, name != "planck") << "help of others:\n" << help.output;
+        const auto words = help.output.substr(at + tag.size());
+        const auto result = pyroscene_cli(words.substr(0, words.find('\n')));
+        EXPECT_EQ(result.exit_code, 0) << words << result.output;
+    }
+    EXPECT_NE(pyroscene_cli("calc atmosphere --help").output.find("--plot FILE"), std::string::npos);
+}
+
+TEST(Calc, PrintsSpectraAndWritesTablesAndJson) {
+    const ScratchFolder scratch;
+    const std::string flame = "calc flame-emissivity --temperature_K 1100 --path_m 1 --soot_volume_fraction 1e-7 ";
+    ASSERT_EQ(pyroscene_cli(flame + "-o " + (scratch / "flame.csv").string()).exit_code, 0);
+    const auto spectrum = read_csv(scratch / "flame.csv");
+    EXPECT_EQ(spectrum.columns, (std::vector<std::string>{"wavelength_um", "emissivity", "radiance_W_m2_sr_um"}));
+    EXPECT_GT(spectrum.rows.size(), 3000U);
+    EXPECT_NEAR(spectrum.numbers("wavelength_um").back(), 15.0, 0.02);
+    ASSERT_EQ(pyroscene_cli("calc atmosphere --altitude_m 4200 -o " + (scratch / "air.csv").string()).exit_code, 0);
+    EXPECT_EQ(read_csv(scratch / "air.csv").rows.size(), 1047U);
+    ASSERT_EQ(pyroscene_cli(flame + "--wavelength_um 3.9 -o " + (scratch / "one.csv").string()).exit_code, 0);
+    const auto one = read_csv(scratch / "one.csv");
+    EXPECT_NEAR(one.numbers("radiance_W_m2_sr_um").at(0), 624.7, 0.7);
+    EXPECT_EQ(one.numbers("path_m").at(0), 1.0);
+    const auto json = pyroscene_cli("calc planck --wavelength_um 4 --temperature_K 1100 --json");
+    EXPECT_NE(json.output.find("\"radiance_W_m2_sr_um\": 4595.5"), std::string::npos) << json.output;
+}
+
 // 855 m of VIIRS hold whole cells of 30 m, 3 m of WASP do not: the estimate says which images take more where fire burns.
 TEST(Check, SaysWhatItsEstimateLeavesOut) {
     const auto scenario = [](const char* file) { return (source_folder() / "scenarios" / file).string(); };
