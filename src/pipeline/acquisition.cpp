@@ -263,8 +263,8 @@ SpectralScene make_spectral_scene(const Scenario& scenario, const inputs::SceneI
 
     out.atmosphere = radiometry::make_view_atmosphere(*tables.air, conditions, out.grid, albedo, tables.ground_heights_m);
     out.air_K = air_temperature_K(*tables.air, conditions);
-    for (const auto& warning : radiometry::atmosphere_warnings(*tables.air, {conditions, largest_view_zenith_rad, 0.0}))
-        report.warn("atmosphere: " + warning);
+    for (const auto& warning : air_warnings(scenario, tables, sensor_agl_m, largest_view_zenith_rad, sun))
+        report.warn(warning);
     return out;
 }
 
@@ -273,6 +273,15 @@ radiometry::SpectralGrid transport_grid(const Scenario& scenario, const inputs::
                                         const radiometry::SunPosition& sun) {
     return covered_grid(scenario, responses, tables, flame_gas(scenario, in),
                         conditions_of(scenario, tables, sensor_agl_m, sun));
+}
+
+std::vector<std::string> air_warnings(const Scenario& scenario, const OpticalTables& tables, double sensor_agl_m,
+                                      double largest_view_zenith_rad, const radiometry::SunPosition& sun) {
+    if (!tables.air) return {};
+    auto out = radiometry::atmosphere_warnings(
+        *tables.air, {conditions_of(scenario, tables, sensor_agl_m, sun), largest_view_zenith_rad, 0.0});
+    for (auto& warning : out) warning.insert(0, "atmosphere: ");
+    return out;
 }
 
 }  // namespace pyroscene::pipeline

@@ -65,4 +65,8 @@ radiometry::SpectralGrid transport_grid(const scenario::Scenario& scenario, cons
                                         const OpticalTables& tables, const std::vector<Spectrum>& responses,
                                         double sensor_agl_m, const radiometry::SunPosition& sun);
 
+/// Where the tables of the air end before what an image asks of them, and what is taken instead.
+std::vector<std::string> air_warnings(const scenario::Scenario& scenario, const OpticalTables& tables, double sensor_agl_m,
+                                      double largest_view_zenith_rad, const radiometry::SunPosition& sun);
+
 }  // namespace pyroscene::pipeline

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -52,17 +53,28 @@ void check_rasters(const Scenario& s, const inputs::SceneInputs& in, CheckResult
 /// Nominal cost of a ray and of a ray times wavelength, one core of an ordinary machine [s]; docs/physics-render.md measures them.
 constexpr double kRay_s = 1.0e-6, kRayWavelength_s = 1.0e-8, kPixelWavelength_s = 2.0e-8;
 
-/// Wavelengths that the bands of a group are computed at: how many in all and per band, and without hot gas.
-std::string wavelengths_text(const radiometry::SpectralGrid& grid, const std::vector<Spectrum>& responses) {
+/// How many wavelengths each band takes: one by one where they are few, else the fewest and the most.
+std::string per_band_text(const radiometry::SpectralGrid& grid, const std::vector<std::string>& ids) {
+    constexpr std::size_t kFew = 8;
+    std::vector<std::string> each;
     int fewest = grid.size(), most = 0;
-    for (const auto& band : grid.bands) {
-        fewest = std::min(fewest, band.end - band.begin);
-        most = std::max(most, band.end - band.begin);
+    for (std::size_t b = 0; b < ids.size(); ++b) {
+        const int n = grid.bands[b].end - grid.bands[b].begin;
+        fewest = std::min(fewest, n);
+        most = std::max(most, n);
+        each.push_back(fmt::format("{}: {}", ids[b], n));
     }
-    const auto spread = fewest == most ? fmt::format("{} a band", most) : fmt::format("{} to {} a band", fewest, most);
+    if (ids.size() <= kFew) return fmt::format("{}", fmt::join(each, ", "));
+    return fewest == most ? fmt::format("{} a band", most) : fmt::format("{} to {} a band", fewest, most);
+}
+
+/// Wavelengths that the bands of a group are computed at: how many in all and per band, and without hot gas.
+std::string wavelengths_text(const radiometry::SpectralGrid& grid, const std::vector<Spectrum>& responses,
+                             const std::vector<std::string>& ids) {
     const int plain = radiometry::make_spectral_grid(responses).size();
-    return fmt::format("{} bands on {} transport wavelengths ({}{})", responses.size(), grid.size(), spread,
-                       plain == grid.size() ? "" : fmt::format("; {} without hot gas", plain));
+    return fmt::format("{} bands on {} transport wavelengths ({}{})", responses.size(), grid.size(),
+                       per_band_text(grid, ids),
+                       plain == grid.size() ? "" : fmt::format("; {} in all without hot gas", plain));
 }
 
 std::string two_digits(double value) { return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value); }
@@ -92,20 +104,25 @@ std::string not_counted(const Scenario& s, const Cost& cost) {
 }
 
 std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in, const std::optional<OpticalTables>& tables,
-                                const scenario::Acquisition& a, Cost& cost) {
+                                const scenario::Acquisition& a, Cost& cost, std::vector<std::string>& warnings) {
     const auto sensor = sensors::load_sensor(a.sensor);
     std::string out;
     const std::size_t frame = inputs::frame_at(in.frames, a.time_s, a.id);
     for (const auto& id : wanted_groups(a, sensor)) {
         const auto& group = sensor.group(id);
         std::vector<Spectrum> responses;
-        for (const int b : wanted_bands(a, sensor, id))
+        std::vector<std::string> band_ids;
+        for (const int b : wanted_bands(a, sensor, id)) {
             responses.push_back(sensor.bands[static_cast<std::size_t>(b)].response);
+            band_ids.push_back(sensor.bands[static_cast<std::size_t>(b)].id);
+        }
         const auto geometry = resolve_geometry(a, in, nullptr, sensor, group);
         if (!tables) continue;  // what is wrong with them has been said
         const double agl_m = std::max(1.0, geometry.path.at(0.0).position.h_m - in.mean_height_m);
         const auto sun = radiometry::sun_position(s.start.unix_s + a.time_s, in.centre.lat_deg, in.centre.lon_deg);
         const auto grid = transport_grid(s, in, *tables, responses, agl_m, sun);
+        for (const auto& warning : air_warnings(s, *tables, agl_m, 0.0, sun))
+            if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
         (void)ground_reflectance(s, in.cover_names, grid);  // for what is wrong with the user's spectra
         const bool point =
             sensor.psf_across.shape == sensors::Psf::Shape::None && sensor.psf_along.shape == sensors::Psf::Shape::None;
@@ -120,9 +137,9 @@ std::string acquisition_summary(const Scenario& s, const inputs::SceneInputs& in
         out += fmt::format(
             "  {}: {} group {}, {} x {} pixels, {}, {:.0f} rays per pixel{}, fire state of {:g} s, about {} s of one core; "
             "radiance, geolocation and truth of {} MB before compression\n",
-            a.id, sensor.id, id, geometry.samples, geometry.lines, wavelengths_text(grid, responses), rays_per_pixel,
-            wide ? fmt::format(" and many more where fire burns in its {:.0f} m", width_m) : "", in.frames[frame].time_s,
-            two_digits(cost_s), two_digits(megabytes));
+            a.id, sensor.id, id, geometry.samples, geometry.lines, wavelengths_text(grid, responses, band_ids),
+            rays_per_pixel, wide ? fmt::format(" and many more where fire burns in its {:.0f} m", width_m) : "",
+            in.frames[frame].time_s, two_digits(cost_s), two_digits(megabytes));
     }
     return out;
 }
@@ -145,10 +162,12 @@ CheckResult check(const Scenario& scenario) {
     if (!scenario.acquisitions.empty()) passes(result, [&] { tables = load_optical_tables(scenario, in); });
     Cost cost;
     std::string acquisitions;
+    std::vector<std::string> air;
     for (const auto& a : scenario.acquisitions)
-        passes(result, [&] { acquisitions += acquisition_summary(scenario, in, tables, a, cost); });
+        passes(result, [&] { acquisitions += acquisition_summary(scenario, in, tables, a, cost, air); });
     if (!result.problems.empty()) return result;
     result.warnings = scenario_warnings(scenario, in);
+    result.warnings.insert(result.warnings.end(), air.begin(), air.end());
     const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
     for (const auto& note : scenario.notes) acquisitions += "  note: " + note + "\n";
     result.summary = fmt::format(

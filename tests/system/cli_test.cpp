@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <regex>
 
 #include "base/csv.h"
 #include "system/support.h"
@@ -179,6 +180,17 @@ TEST(Check, SaysWhatItsEstimateLeavesOut) {
     const auto narrow = pyroscene_cli("check " + scenario("minimal/scenario.yaml"));
     EXPECT_EQ(narrow.exit_code, 0) << narrow.output;
     EXPECT_EQ(narrow.output.find("wide pixels"), std::string::npos) << narrow.output;
+    // Few bands are told one by one.
+    EXPECT_TRUE(std::regex_search(narrow.output,
+                                  std::regex(R"(3 bands on \d+ transport wavelengths \(SWIR: \d+, MWIR: \d+, LWIR: \d+)")))
+        << narrow.output;
+}
+
+// What a run warns of, check says before: here the sun, lower than the tables go.
+TEST(Check, WarnsWhereTheTablesOfTheAirEnd) {
+    const auto low_sun = pyroscene_cli("check " + (source_folder() / "scenarios/field_flame/gas_bands.yaml").string());
+    EXPECT_EQ(low_sun.exit_code, 0) << low_sun.output;
+    EXPECT_NE(low_sun.output.find("warning: atmosphere: sun zenith"), std::string::npos) << low_sun.output;
 }
 
 TEST(Sensors, ListAndDetails) {
