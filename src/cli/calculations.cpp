@@ -93,7 +93,9 @@ std::vector<double> atmosphere(const Arguments& a) {
 }
 
 void plot_atmosphere(const Arguments& a, const std::string& file) {
-    const auto t = radiometry::evaluate(atmosphere_set(a), atmosphere_point(a));
+    const auto point = atmosphere_point(a);
+    warn_beyond_tables(atmosphere_set(a), point);
+    const auto t = radiometry::evaluate(atmosphere_set(a), point);
     const drawing::PlotAxis wavelength{"wavelength / um", true, {}, {}};
     const auto diagram = [&](const char* label, bool logarithmic, double lowest, std::vector<drawing::PlotSeries> series) {
         drawing::LinePlot plot;
@@ -114,9 +116,12 @@ void plot_atmosphere(const Arguments& a, const std::string& file) {
         diagram("irradiance / W m-2 um-1", true, 1e-3,
                 {curve("direct sun, normal", t.direct_normal), curve("sky, sunlit", t.diffuse),
                  curve("sky, thermal", t.thermal_sky)})};
-    plots.front().title =
-        fmt::format("{}, {} km visibility, sensor {} m, view {} deg, sun {} deg", a.text("model"), a.text("visibility_km"),
-                    a.text("altitude_m"), a.text("view_zenith_deg"), a.text("sun_zenith_deg"));
+    plots[0].title =
+        fmt::format("{}, {} km visibility, ground {} m; sensor {} m above, view {} deg", a.text("model"),
+                    a.text("visibility_km"), a.text("ground_elevation_m"), a.text("altitude_m"), a.text("view_zenith_deg"));
+    plots[1].title =
+        fmt::format("to the sensor; sun {} deg, azimuth {} deg", a.text("sun_zenith_deg"), a.text("relative_azimuth_deg"));
+    plots[2].title = "at the ground";
     drawing::write_line_plots(file, plots);
 }
 

@@ -81,9 +81,9 @@ void plot(const Arguments& a, const std::string& file) {
         black.push_back(radiometry::planck_radiance(w, flame.temperature_K));
     }
     drawing::LinePlot upper, lower;
-    upper.title =
-        fmt::format("{} m of flame at {} K, soot {}, H2O {}, CO2 {}, CO {}", a.text("path_m"), a.text("temperature_K"),
-                    a.text("soot_volume_fraction"), a.text("x_h2o"), a.text("x_co2"), a.text("x_co"));
+    upper.title = fmt::format("{} m of flame at {} K, soot {}, H2O {}, CO2 {}, CO {}, K {} ppm, Na {} ppm", a.text("path_m"),
+                              a.text("temperature_K"), a.text("soot_volume_fraction"), a.text("x_h2o"), a.text("x_co2"),
+                              a.text("x_co"), a.text("potassium_ppm"), a.text("sodium_ppm"));
     upper.x = lower.x = {"wavelength / um", true, {}, {}};
     upper.y = {"emissivity", false, 0.0, 1.0};
     upper.series = {{"", lambda_um, emissivity}};

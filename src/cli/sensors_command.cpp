@@ -108,23 +108,40 @@ void show_sensor(const std::string& id_or_path, bool json) {
     std::cout << out;
 }
 
+/// Responses of bands; of hundreds, which would cover each other, the width of each at its centre.
+drawing::LinePlot response_plot(const sensors::Sensor& s, const std::vector<const sensors::Band*>& bands) {
+    constexpr std::size_t kMostInLegend = 8, kMostCurves = 60;
+    drawing::LinePlot plot;
+    plot.x.label = "wavelength, um";
+    if (bands.size() > kMostCurves) {
+        plot.title = fmt::format("{}: width of {} channels", s.id, bands.size());
+        plot.y = {"full width at half maximum, um", false, 0.0, {}};
+        drawing::PlotSeries widths{"", {}, {}, true};
+        for (const auto* band : bands) {
+            widths.x.push_back(band->centre_um);
+            widths.y.push_back(band->fwhm_um);
+        }
+        plot.series.push_back(std::move(widths));
+        return plot;
+    }
+    plot.title = fmt::format("{}: spectral response", s.id);
+    plot.y = {"response, peak 1", false, 0.0, 1.05};
+    for (const auto* band : bands)
+        plot.series.push_back(
+            {bands.size() > kMostInLegend ? "" : band->id, band->response.lambda_um, band->response.value});
+    return plot;
+}
+
 /// Reflective and thermal bands each in a diagram, as far as there are any.
 void plot_responses(const std::string& id_or_path, const std::filesystem::path& file) {
     constexpr double kThermal_um = 3.0;
-    constexpr std::size_t kMostInLegend = 8;
     const auto s = sensors::load_sensor(id_or_path);
     std::vector<drawing::LinePlot> plots;
     for (const bool thermal : {false, true}) {
-        drawing::LinePlot plot;
-        plot.title = fmt::format("{}: spectral response", s.id);
-        plot.x.label = "wavelength, um";
-        plot.y = {"response, peak 1", false, 0.0, 1.05};
+        std::vector<const sensors::Band*> bands;
         for (const auto& band : s.bands)
-            if ((band.centre_um >= kThermal_um) == thermal)
-                plot.series.push_back({band.id, band.response.lambda_um, band.response.value});
-        if (plot.series.size() > kMostInLegend)
-            for (auto& series : plot.series) series.label.clear();
-        if (!plot.series.empty()) plots.push_back(std::move(plot));
+            if ((band.centre_um >= kThermal_um) == thermal) bands.push_back(&band);
+        if (!bands.empty()) plots.push_back(response_plot(s, bands));
     }
     drawing::write_line_plots(file, plots);
 }

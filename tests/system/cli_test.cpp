@@ -125,6 +125,8 @@ TEST(Calc, FlameEmissivityPlotsItsSpectrum) {
     ASSERT_EQ(bytes.substr(1, 3), "PNG");
     EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\3\x84\0\0\3\xC0", 8));  // 900 x 960 pixels: two diagrams
     EXPECT_EQ(pyroscene_cli("calc flame-emissivity --temperature_K 1100 --plot " + file).exit_code, 3);
+    const auto low = pyroscene_cli("calc atmosphere --altitude_m 3000 --view_zenith_deg 80 --plot " + file);
+    EXPECT_NE(low.output.find("warning: atmosphere: view zenith 80 deg"), std::string::npos) << low.output;
 }
 
 TEST(Calc, EveryNameHasHelpWithAnExampleThatWorks) {
