@@ -12,7 +12,7 @@ namespace {
 
 const char* libradtran_model(int number) {
     constexpr std::array<const char*, 7> kNames{
-        "", "tropics", "midlatitude_summer", "midlatitude_winter", "subarctic_summer", "subarctic_winter", "us-standard"};
+        "", "tropics", "midlatitude_summer", "midlatitude_winter", "subarctic_summer", "subarctic_winter", "US-standard"};
     return kNames[static_cast<std::size_t>(number)];
 }
 
