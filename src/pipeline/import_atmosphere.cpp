@@ -5,6 +5,7 @@
 #include <cctype>
 #include <iterator>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -62,6 +63,24 @@ std::string detect_format(const Source& source, const std::string& text) {
     return "tape7";
 }
 
+/// uvspec does not print the sun at the top of the atmosphere, but less of it than all and more than a hundredth reaches the
+/// ground somewhere below 1.3 um; a wrong unit is off by a thousand.
+void check_sun_at_ground(const AtmosphereRun& run, const Spectrum& sun) {
+    constexpr double kClear_um = 1.3, kMost = 1.5, kLeast = 0.01;
+    double largest = 0.0;
+    bool any = false;
+    for (std::size_t i = 0; i < run.direct_normal.size(); ++i) {
+        if (run.wavelength_um[i] > kClear_um || !(sun.at(run.wavelength_um[i]) > 0.0)) continue;
+        largest = std::max(largest, run.direct_normal[i] / sun.at(run.wavelength_um[i]));
+        any = true;
+    }
+    if (any && !(largest > kLeast && largest < kMost))
+        throw input_error(run.source,
+                          fmt::format("the direct sun is at most {:.3g} times that above the atmosphere, expected {} to 1; "
+                                      "is the unit right (--unit, or column unit of a list)?",
+                                      largest, kLeast));
+}
+
 std::vector<AtmosphereRun> read_source(const Source& source, const Spectrum& sun) {
     const auto path = source.file.string();
     const auto text = read_text_file(source.file);
@@ -73,7 +92,9 @@ std::vector<AtmosphereRun> read_source(const Source& source, const Spectrum& sun
     if (format == "table") return {radiometry::read_exchange_csv(path, source.hints)};
     if (source.uvspec_columns.empty())
         throw input_error(path, "libRadtran tables have no header; name their columns (for example lambda edir edn)");
-    return {radiometry::read_uvspec(path, text, source.uvspec_columns, source.uvspec_thermal, source.hints)};
+    auto run = radiometry::read_uvspec(path, text, source.uvspec_columns, source.uvspec_thermal, source.hints);
+    check_sun_at_ground(run, sun);
+    return {std::move(run)};
 }
 
 struct ListColumn {
@@ -120,7 +141,7 @@ std::vector<Source> read_list(const fs::path& list, const Source& common) {
         s.file = list.parent_path() / cell("file");
         if (cell("file").empty()) throw input_error(where, "no file is named");
         if (!cell("format").empty()) s.format = cell("format");
-        if (!cell("unit").empty()) s.hints.unit = radiometry::spectral_unit(cell("unit"));
+        if (!cell("unit").empty()) s.hints.unit = radiometry::spectral_unit(cell("unit"), where + ", unit");
         if (!cell("columns").empty()) s.uvspec_columns = words(cell("columns"));
         if (const auto kind = cell("source"); !kind.empty()) {
             if (kind != "solar" && kind != "thermal")

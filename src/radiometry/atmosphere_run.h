@@ -59,9 +59,9 @@ enum class SpectralUnit {
 /// W cm-2 cm, W cm-2 um-1, W cm-2 nm-1, uW cm-2 nm-1, mW m-2 nm-1, W m-2 nm-1, W m-2 um-1: factor to W m-2 um-1 at a wavelength
 /// (per wavenumber: 1e8 / lambda^2 = wavenumber squared).
 double to_product_unit(SpectralUnit unit, double wavelength_um) noexcept;
-/// Name as users write it (W_cm2_cm-1, W_cm2_um, W_cm2_nm, uW_cm2_nm, mW_m2_nm, W_m2_nm, W_m2_um); throws an input error that
-/// lists them.
-SpectralUnit spectral_unit(std::string_view name);
+/// Name as users write it (W_cm2_cm-1, W_cm2_um, W_cm2_nm, uW_cm2_nm, mW_m2_nm, W_m2_nm, W_m2_um); throws an input error about
+/// `subject` that lists them.
+SpectralUnit spectral_unit(std::string_view name, const std::string& subject = "unit");
 std::string spectral_unit_name(SpectralUnit unit);
 
 /// What the user says about a file that it does not say itself.

@@ -147,13 +147,13 @@ double to_product_unit(SpectralUnit unit, double lambda_um) noexcept {
     return 1.0;
 }
 
-SpectralUnit spectral_unit(std::string_view name) {
+SpectralUnit spectral_unit(std::string_view name, const std::string& subject) {
     std::vector<std::string> names;
     for (const auto& [unit, known] : kUnits) {
         if (name == known) return unit;
         names.emplace_back(known);
     }
-    throw input_error("unit", fmt::format("'{}' is unknown; there are {}", name, fmt::join(names, ", ")));
+    throw input_error(subject, fmt::format("'{}' is unknown; there are {}", name, fmt::join(names, ", ")));
 }
 
 std::string spectral_unit_name(SpectralUnit unit) {

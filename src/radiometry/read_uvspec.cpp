@@ -102,7 +102,9 @@ AtmosphereRun read_uvspec(const std::string& path, const std::string& text, cons
             throw input_error(path, fmt::format("wavelength {:.6g} um, expected positive and ascending", lambda_um));
         for (const auto* values : {&run.path_solar, &run.total_radiance, &run.diffuse, &run.thermal_sky, &run.direct_normal})
             if (!values->empty() && !((*values)[i] >= -1e-9 && (*values)[i] < 1e6))
-                throw input_error(path, fmt::format("{} at {:.6g} um, expected 0 or more", (*values)[i], lambda_um));
+                throw input_error(path,
+                                  fmt::format("{:.6g} W m-2 (sr-1) um-1 at {:.6g} um, expected 0 to 1e6; is the unit right?",
+                                              (*values)[i], lambda_um));
     }
     return run;
 }

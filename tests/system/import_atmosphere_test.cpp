@@ -241,6 +241,13 @@ TEST(ImportAtmosphere, RefusesWhatItCannotUse) {
     save(scratch / "dark.tp7", dark);
     refuses(folder + "/dark.tp7", "no run gives the sun at the ground");
     refuses(folder + "/dark.tp7 --unit uW_cm2_nm", "with W_cm2_cm-1 it would fit");
+    const std::string uvspec = " --format uvspec --columns lambda,edir,edn --source solar --sun-zenith-deg 40";
+    save(scratch / "watts.out", "500 1.2 0.1\n600 1.1 0.1\n");  // W m-2 nm-1
+    refuses(folder + "/watts.out" + uvspec, "the direct sun is at most");
+    save(scratch / "milliwatts.out", "500 1200 100\n600 1100 100\n");
+    refuses(folder + "/milliwatts.out" + uvspec + " --unit W_m2_nm", "is the unit right?");
+    save(scratch / "units.csv", "file,unit\ndark.tp7,furlong\n");
+    refuses(folder + "/units.csv", "units.csv:2, unit: 'furlong' is unknown");
     refuses(folder + "/dark.tp7 --unit parsec", "'parsec' is unknown");
     save(scratch / "broken.json", "{\"MODTRAN\": [");
     refuses(folder + "/broken.json", "is no JSON");
