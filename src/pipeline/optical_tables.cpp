@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "base/files.h"
 #include "gis/netcdf_input.h"
 
@@ -27,9 +30,15 @@ radiometry::AtmosphereSet load_atmosphere(const scenario::AtmosphereSource& sour
         if (!open || open->path() != path) open.emplace(path);
         return open->read(variable).values;
     };
-    if (source.file)
-        return {
-            {radiometry::make_atmosphere_table([&](const std::string& variable) { return read(*source.file, variable); })}};
+    if (source.file) {
+        try {
+            return {{radiometry::make_atmosphere_table(
+                [&](const std::string& variable) { return read(*source.file, variable); })}};
+        } catch (const Error& e) {
+            if (e.kind() != ErrorKind::Input) throw;
+            throw input_error("atmosphere.file", fmt::format("{} (import-atmosphere makes such tables)", e.what()));
+        }
+    }
     return radiometry::make_atmosphere_set(source.model, source.visibility_km, ground,
                                            [&](const std::string& file, const std::string& variable) {
                                                return read(data_folder() / "atmosphere" / file, variable);

@@ -187,6 +187,10 @@ TEST(ImportAtmosphere, CheckSeesThatATableDoesNotCoverTheBands) {
     const auto check = pyroscene_cli("check " + folder + "/s.yaml");
     EXPECT_EQ(check.exit_code, 3) << check.output;
     EXPECT_NE(check.output.find("air.nc: covers 7.5 to 15 um, the bands need"), std::string::npos) << check.output;
+    std::filesystem::copy_file(scratch / "air.csv", scratch / "air.nc", std::filesystem::copy_options::overwrite_existing);
+    const auto text = pyroscene_cli("check " + folder + "/s.yaml");
+    EXPECT_EQ(text.exit_code, 3) << text.output;
+    EXPECT_NE(text.output.find("(import-atmosphere makes such tables)"), std::string::npos) << text.output;
 }
 
 TEST(AtmosphereDeck, HoldsWhatTheAcquisitionTakes) {
