@@ -95,10 +95,18 @@ std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField
 std::vector<FlameColumn> make_columns(const FireState& state, const SurfaceField& surface, const Raster<float>& terrain_m,
                                       const FireParameters& fire, const FlameParameters& flame, Vec3 scene_origin);
 
+/// The ground that flames stand on, whose bilinear surface is what lines of sight end at.
+struct FlameGround {
+    const Raster<float>& terrain_m;
+    Vec3 scene_origin;  ///< as for make_columns()
+};
+
 /// Cuts the columns into voxels; each column's emissive volume goes to voxels by exact overlap, sheared by its tilt (slabs
 /// that shift by at most half a voxel). The lattice starts at the zero of the scene frame, so lattices of different frames
 /// coincide; heights are vertical, so shear conserves volume. Columns in any order give the same bits. Throws an input error
 /// for voxels too small for the memory and for a tilt beyond 89 degrees.
-FlameField voxelise(std::span<const FlameColumn> columns, const FlameParameters& flame);
+/// \param ground  flame in voxels that the ground cuts goes up into the lowest voxel that stands clear of it, or part of it would
+/// be hidden: half of what is lower than a voxel, on a slope or on level ground between two voxel faces. Null = no ground
+FlameField voxelise(std::span<const FlameColumn> columns, const FlameParameters& flame, const FlameGround* ground = nullptr);
 
 }  // namespace pyroscene::fire

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -9,6 +11,7 @@
 #include "base/error.h"
 #include "fire/bricks.h"
 #include "fire/flame_field.h"
+#include "fire/sampling.h"
 
 namespace pyroscene::fire {
 namespace {
@@ -121,11 +124,50 @@ Extent extent_of(std::span<const FlameColumn> columns, const Lattice& lattice) {
     return all;
 }
 
+/// The lowest layer of each column of voxels that stands clear of the ground.
+class ClearLayers {
+public:
+    ClearLayers(const Lattice& lattice, const FlameGround& ground) : lattice_(lattice), ground_(ground) {}
+
+    std::int64_t lowest(std::int64_t i, std::int64_t j) {
+        const auto key = (static_cast<std::uint64_t>(i) << 32U) ^ static_cast<std::uint32_t>(j);
+        const auto [place, is_new] = known_.try_emplace(key, 0);
+        if (is_new) place->second = find(i, j);
+        return place->second;
+    }
+
+private:
+    /// Judged at the corners of the column and in steps of at most half of it and half a cell between them.
+    [[nodiscard]] std::int64_t find(std::int64_t i, std::int64_t j) const {
+        constexpr double kBuried = 0.02;  // of a voxel's height
+        const MapGrid& grid = ground_.terrain_m.grid;
+        const double largest_m = std::max(lattice_.dx_m, lattice_.dy_m);
+        const int steps = std::max(2, static_cast<int>(std::ceil(2.0 * largest_m / grid.cell_m)));
+        double highest_m = -std::numeric_limits<double>::infinity();
+        for (int b = 0; b <= steps; ++b)
+            for (int a = 0; a <= steps; ++a) {
+                const double x_m = (static_cast<double>(i) + static_cast<double>(a) / steps) * lattice_.dx_m,
+                             y_m = (static_cast<double>(j) + static_cast<double>(b) / steps) * lattice_.dy_m;
+                const double z_m = bilinear_or_own(ground_.terrain_m, grid.col_at(x_m + ground_.scene_origin.x),
+                                                   grid.row_at(y_m + ground_.scene_origin.y));
+                if (z_m > highest_m) highest_m = z_m;
+            }
+        if (!std::isfinite(highest_m)) return std::numeric_limits<std::int64_t>::min();
+        return static_cast<std::int64_t>(std::ceil(highest_m / lattice_.dz_m - kBuried));
+    }
+
+    Lattice lattice_;
+    FlameGround ground_;
+    std::unordered_map<std::uint64_t, std::int64_t> known_;
+};
+
 /// Cuts columns layer by layer into contributions of whole voxels.
 class Cutter {
 public:
-    Cutter(const Lattice& lattice, const VoxelGrid& grid, const TemperatureProfile& profile)
-        : lattice_(lattice), grid_(grid), profile_(profile) {}
+    Cutter(const Lattice& lattice, const VoxelGrid& grid, const TemperatureProfile& profile, const FlameGround* ground)
+        : lattice_(lattice), grid_(grid), profile_(profile) {
+        if (ground != nullptr) clear_.emplace(lattice, *ground);
+    }
 
     void add(const FlameColumn& c) {
         const Prism prism(c);
@@ -182,8 +224,9 @@ private:
             for (std::int64_t i = window.i_low; i <= window.i_high; ++i, ++n) {
                 const auto fill = static_cast<float>(layer_m3_[n] * per_m3);
                 if (!(fill > 0.0F)) continue;
+                const std::int64_t layer = clear_ ? std::max(k, clear_->lowest(i, j)) : k;
                 const auto key = contribution_key(grid_, static_cast<int>(i - lattice_.i0),
-                                                  static_cast<int>(j - lattice_.j0), static_cast<int>(k - lattice_.k0));
+                                                  static_cast<int>(j - lattice_.j0), static_cast<int>(layer - lattice_.k0));
                 contributions_.push_back({key, fill, T_K});
             }
         }
@@ -192,6 +235,7 @@ private:
     Lattice lattice_;
     VoxelGrid grid_;
     TemperatureProfile profile_;
+    std::optional<ClearLayers> clear_;
     Overlaps x_, y_;
     std::vector<double> layer_m3_;
     std::vector<Contribution> contributions_;
@@ -199,7 +243,7 @@ private:
 
 }  // namespace
 
-FlameField voxelise(std::span<const FlameColumn> columns, const FlameParameters& flame) {
+FlameField voxelise(std::span<const FlameColumn> columns, const FlameParameters& flame, const FlameGround* ground) {
     const auto [dx_m, dy_m, dz_m] = flame.voxel_m;
     if (!(dx_m > 0.0 && dy_m > 0.0 && dz_m > 0.0))
         throw input_error("flame.voxel_m", fmt::format("is {} x {} x {} m, must be above 0", dx_m, dy_m, dz_m));
@@ -219,7 +263,7 @@ FlameField voxelise(std::span<const FlameColumn> columns, const FlameParameters&
                          dy_m,
                          dz_m};
     check_grid(grid);
-    Cutter cutter(lattice, grid, flame.profile);
+    Cutter cutter(lattice, grid, flame.profile, ground);
     for (const FlameColumn& column : columns) cutter.add(column);
     return merge_into_bricks(grid, cutter.take());
 }

@@ -136,7 +136,8 @@ FireScene make_fire_scene(const Scenario& scenario, const inputs::SceneInputs& i
     if (scenario.flame.off) return scene;
     const auto columns = fire::make_columns(state, scene.surface, in.terrain_m, scenario.fire, scenario.flame.parameters,
                                             in.origin_m, time_s);
-    scene.flame = fire::voxelise(columns, scenario.flame.parameters);
+    const fire::FlameGround ground{in.terrain_m, in.origin_m};
+    scene.flame = fire::voxelise(columns, scenario.flame.parameters, &ground);
     return scene;
 }
 

@@ -65,6 +65,39 @@ TEST(Slopes, SkyViewIsThatOfEachCellByItself) {
     EXPECT_LT(least, 0.95);
 }
 
+// Low flames under voxels that the ground cuts: seen from above, thin flame radiates k V B whatever the slope and wherever
+// the ground lies between the faces of voxels.
+TEST(Slopes, LowFlamesAreNotBuried) {
+    for (const double slope : {0.0, 0.3, 1.0})
+        for (const double z_m : {0.0, 0.37, 0.75}) {
+            TestScene scene({.cols = 12, .rows = 12, .cell_m = 20.0, .ground_K = 300.0, .absorption_per_m = 1e-3});
+            scene.set_heights([&](double x, double y) { return z_m + slope * (0.8 * x - 0.6 * y); });
+            std::vector<fire::FlameColumn> columns;
+            for (double x_m = 62.5; x_m < 180.0; x_m += 15.0)
+                columns.push_back({.x_m = x_m,
+                                   .y_m = 112.5,
+                                   .z_m = scene.terrain->height_at(x_m, 112.5),
+                                   .width_m = 5.0,
+                                   .top_m = 0.4,
+                                   .tilt_rad = 0.5,
+                                   .azimuth_rad = 2.0,
+                                   .temperature_K = 1100.0});
+            const double volume_m3 = static_cast<double>(columns.size()) * 25.0 * 0.4;
+            const fire::FlameGround ground{scene.heights, scene.origin_m};
+            scene.flame = fire::voxelise(columns, {}, &ground);
+            EXPECT_NEAR(scene.flame.emissive_volume_m3() / volume_m3, 1.0, 1e-5);
+            constexpr double kStep_m = 0.5;
+            std::vector<render::SceneRay> rays;
+            for (double x_m = 40.2; x_m < 200.0; x_m += kStep_m)
+                for (double y_m = 90.2; y_m < 140.0; y_m += kStep_m) rays.push_back({{x_m, y_m, 900.0}, {x_m, y_m, -400.0}});
+            const auto image = render::render_image(scene.scene(), nullptr, rays_request(rays));
+            double power = 0.0;
+            for (const float L : image.terms[static_cast<std::size_t>(render::Term::FlameEmission)])
+                power += static_cast<double>(L) * kStep_m * kStep_m;
+            EXPECT_NEAR(power / (1e-3 * volume_m3 * planck_radiance(4.0, 1100.0)), 1.0, 0.02) << slope << ' ' << z_m;
+        }
+}
+
 TEST(Slopes, PlaneGroundSeesTheWholeSky) {
     const TestScene scene({.cols = 8, .rows = 8});
     EXPECT_EQ(render::ground_irradiance(scene.scene(), {}).sky_view, nullptr);
