@@ -160,4 +160,14 @@ std::array<double, 2> FlameField::temperature_range_K() const noexcept {
     return {lowest, highest};
 }
 
+double FlameField::emission_mean_temperature_K() const noexcept {
+    double weight = 0.0, sum_K = 0.0;
+    for_each_occupied(*this, [&](float fill, float T_K) {
+        const double emission = static_cast<double>(fill) * T_K * T_K * T_K * T_K;
+        weight += emission;
+        sum_K += emission * static_cast<double>(T_K);
+    });
+    return weight > 0.0 ? sum_K / weight : 0.0;
+}
+
 }  // namespace pyroscene::fire

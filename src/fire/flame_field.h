@@ -53,6 +53,8 @@ struct FlameField {
     [[nodiscard]] std::array<double, 2> z_range_m() const noexcept;
     /// {lowest, highest} temperature of occupied voxels [K]; {0, 0} when empty.
     [[nodiscard]] std::array<double, 2> temperature_range_K() const noexcept;
+    /// Mean temperature of occupied voxels, weighted by fill and T^4 [K]; 0 when empty.
+    [[nodiscard]] double emission_mean_temperature_K() const noexcept;
 };
 
 /// Builds the bricks; voxels of the same (i, j, k) are merged: fills add, T^5 averages by fill (TemperatureProfile says why). Order of the input

@@ -81,18 +81,10 @@ private:
 AbsorptionNodes absorption_nodes(const RenderScene& scene) {
     const SceneOptics& optics = *scene.optics;
     if (!optics.flame_tables || optics.grey || scene.flame->empty()) return AbsorptionNodes(optics.flame_absorption_per_m);
-    double weight = 0.0, sum_K = 0.0;
-    for (const auto& brick : scene.flame->bricks) {
-        for (std::size_t v = 0; v < brick.fill.size(); ++v) {
-            if (!(brick.fill[v] > 0.0F)) continue;
-            const double T_K = brick.temperature_K[v], emission = brick.fill[v] * T_K * T_K * T_K * T_K;
-            weight += emission;
-            sum_K += emission * T_K;
-        }
-    }
+    const double T_K = scene.flame->emission_mean_temperature_K();
     std::vector<std::vector<radiometry::AbsorptionPart>> mixes;
     for (const double lambda_um : optics.lambda_um)
-        mixes.push_back(radiometry::absorption_mix(*optics.flame_tables, optics.flame_gas, lambda_um, sum_K / weight));
+        mixes.push_back(radiometry::absorption_mix(*optics.flame_tables, optics.flame_gas, lambda_um, T_K));
     return AbsorptionNodes(mixes);
 }
 

@@ -230,8 +230,7 @@ SceneTables::SceneTables(const RenderScene& scene) {
 
 void SceneTables::set_total_transmittance(const RenderScene& scene) {
     const SceneOptics& optics = *scene.optics;
-    const auto [low_K, high_K] = scene.flame->temperature_range_K();
-    const double T_K = 0.5 * (low_K + high_K);
+    const double T_K = scene.flame->emission_mean_temperature_K();
     const double soot_per_m = radiometry::soot_planck_mean_per_m(optics.gas.soot_volume_fraction, T_K);
     for (int i = 0; i < kTotalNodes; ++i) {
         const double length_m = kTotalUnit_m * std::expm1(kTotalStep * i);

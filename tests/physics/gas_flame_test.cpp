@@ -81,6 +81,32 @@ TEST(GasFlame, ExitanceOfAnIsothermalFireIsThatOfABlackBody) {
             }
 }
 
+// Layers that cool upwards, before space: true exitance against pi times the reference path's radiance, summed over wavelengths.
+TEST(GasFlame, ExitanceOfCoolingFlameIsThatOfItsSpectrum) {
+    constexpr int kLayers = 10, kWavelengths = 300;
+    constexpr double kShortest_um = 0.5, kLongest_um = 40.0;
+    for (const auto& [tip_K, tolerance] : {std::pair{500.0, 0.02}, {310.0, 0.065}})
+        for (const double length_m : {0.2, 1.0, 4.0}) {
+            TestScene scene = scene_with_gas(1100.0, 10.0, 0.0, 1, 1.0);
+            scene.optics.gas = scene.optics.flame_gas;
+            auto voxels = box_of_voxels(12, 12, kLayers, 1100.0, length_m / kLayers);
+            for (auto& v : voxels) v.temperature_K += static_cast<float>((tip_K - 1100.0) * v.k / (kLayers - 1));
+            scene.set_flame(scene.flame.grid, voxels);
+            const auto image =
+                render::render_image(scene.scene(), nullptr, rays_request({{{70.0, 71.0, 100.0}, {70.0, 71.0, -1.0}}}));
+            double expected = 0.0;
+            for (int i = 0; i < kWavelengths; ++i) {
+                const double step = std::log(kLongest_um / kShortest_um) / kWavelengths;
+                const double lambda_um = kShortest_um * std::exp((i + 0.5) * step);
+                radiometry::FlamePath path(*tables(), lambda_um);
+                for (int k = kLayers - 1; k >= 0; --k)
+                    path.add(length_m / kLayers, 1100.0 + (tip_K - 1100.0) * k / (kLayers - 1), scene.optics.flame_gas);
+                expected += kPi * path.emitted_radiance() * lambda_um * step;
+            }
+            EXPECT_NEAR(image.radiant_exitance_W_m2[0] / expected, 1.0, tolerance) << tip_K << " K, " << length_m << " m";
+        }
+}
+
 TEST(GasFlame, SlabEmitsAndTransmitsLikeTheReferencePath) {
     for (const double fill : {0.1, 1.0}) {
         const TestScene scene = scene_with_gas(1100.0, 900.0, 0.0, 3, fill);
