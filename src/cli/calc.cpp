@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "base/csv.h"
 #include "base/error.h"
@@ -150,28 +151,22 @@ std::string csv_text(const ResultTable& table) {
 }
 
 /// A number where the text is one; what is not finite has no place in JSON.
-std::string json_value(const std::string& text) {
+nlohmann::ordered_json json_value(const std::string& text) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
-    if (!text.empty() && *end == '\0') return std::isfinite(value) ? fmt::format("{}", value) : "null";
-    std::string quoted;
-    for (const char c : text) {
-        if (c == '"' || c == '\\') quoted += '\\';
-        quoted += c;
-    }
-    return '"' + quoted + '"';
+    if (text.empty() || *end != '\0') return text;
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
 /// A row as an object by column name; several as a list.
 std::string json_text(const ResultTable& table) {
-    std::vector<std::string> rows;
-    for (const auto& row : table.rows) {
-        std::vector<std::string> members;
-        for (std::size_t c = 0; c < row.size(); ++c)
-            members.push_back(fmt::format("{}: {}", json_value(table.columns[c]), json_value(row[c])));
-        rows.push_back(fmt::format("{{{}}}", fmt::join(members, ", ")));
+    auto rows = nlohmann::ordered_json::array();
+    for (const auto& fields : table.rows) {
+        nlohmann::ordered_json row;
+        for (std::size_t c = 0; c < fields.size(); ++c) row[table.columns[c]] = json_value(fields[c]);
+        rows.push_back(std::move(row));
     }
-    return rows.size() == 1 ? rows[0] + "\n" : fmt::format("[{}]\n", fmt::join(rows, ",\n "));
+    return (rows.size() == 1 ? rows[0] : rows).dump(2) + "\n";
 }
 
 std::string lines_text(const Calculation& calculation, const ResultTable& table) {
