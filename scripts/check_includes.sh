@@ -36,7 +36,7 @@ BEGIN {
     foreign["drawing"]  = "^(opencv2/|openssl/|png[.]h$)"
     foreign["imagery"]  = "^(tbb/|oneapi/tbb|opencv2/|nlohmann/)"
     foreign["pipeline"] = "^(tbb/|oneapi/tbb|opencv2/|openvdb/|nlohmann/|openssl/)"
-    foreign["cli"]      = "^(CLI/|spdlog/)"
+    foreign["cli"]      = "^(CLI/|spdlog/|nlohmann/)"
 
     standard = "^[a-z0-9_]+$"
     posix    = "^((unistd|dlfcn|fcntl|signal|poll|termios|pthread|immintrin)\\.h|sys/[a-z]+\\.h)$"
