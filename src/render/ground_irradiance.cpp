@@ -51,14 +51,14 @@ std::vector<std::size_t> receivers(const LightScene& shared, GroundIrradiance& l
     return cells;
 }
 
-void write_rows(const LightScene& shared, const SceneTables& tables, const PointSources* points,
+void write_rows(const LightScene& shared, const SceneTables& tables, const PointSources* points, const FlameColumns* plume,
                 const std::vector<std::size_t>& cells, const std::vector<std::vector<LatticeReceiver>>& waves, Rows& rows,
                 const Monitor& monitor) {
     constexpr std::size_t kCellsPerTask = 32;
     const auto tasks_of = [](const auto& wave) { return (wave.size() + kCellsPerTask - 1) / kCellsPerTask; };
     std::size_t tasks = 0;
     for (const auto& wave : waves) tasks += tasks_of(wave);
-    tbb::enumerable_thread_specific<RowWriter> writers([&] { return RowWriter(shared, tables, points); });
+    tbb::enumerable_thread_specific<RowWriter> writers([&] { return RowWriter(shared, tables, points, plume); });
     Progress progress(monitor, static_cast<int>(tasks));
     for (const auto& wave : waves) {
         tbb::parallel_for(std::size_t{0}, tasks_of(wave), [&](std::size_t task) {
@@ -110,7 +110,7 @@ LightSamplingError sampling_error(const LightScene& shared, const SceneTables& t
         std::vector<float> irradiance(static_cast<std::size_t>(tables.stride));
         for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
             std::fill(irradiance.begin(), irradiance.end(), 0.0F);
-            RowWriter(which == 0 ? shared : finer, tables, nullptr).flame(receiver, irradiance.data());
+            RowWriter(which == 0 ? shared : finer, tables, nullptr, nullptr).flame(receiver, irradiance.data());
             for (const float e : irradiance) sums[i][which] += static_cast<double>(e);
         }
     });
@@ -178,7 +178,8 @@ GroundIrradiance ground_irradiance(const RenderScene& scene, const GroundLightSe
         waves.emplace_back(cells.size());
         for (std::size_t row = 0; row < cells.size(); ++row) waves[0][row].row = static_cast<std::int32_t>(row);
     }
-    write_rows(shared, tables, points ? &*points : nullptr, cells, waves, rows, monitor);
+    const std::optional<FlameColumns> plume = has_plume(scene) ? std::optional<FlameColumns>(*scene.plume) : std::nullopt;
+    write_rows(shared, tables, points ? &*points : nullptr, plume ? &*plume : nullptr, cells, waves, rows, monitor);
     add_bounces(shared, tables, cells, rows);
     if (settings.estimate_error && !points) light.sampling_error = sampling_error(shared, tables, cells);
     return light;

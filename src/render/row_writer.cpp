@@ -9,7 +9,8 @@
 
 namespace pyroscene::render {
 
-RowWriter::RowWriter(const LightScene& shared, const SceneTables& tables, const PointSources* points)
+RowWriter::RowWriter(const LightScene& shared, const SceneTables& tables, const PointSources* points,
+                     const FlameColumns* plume)
     : shared_(&shared),
       points_(points),
       tables_(&tables),
@@ -22,7 +23,9 @@ RowWriter::RowWriter(const LightScene& shared, const SceneTables& tables, const 
       smoky_sky_(tables),
       through_(static_cast<std::size_t>(tables.stride)),
       opacity_(through_.size()),
-      of_moment_(through_.size()) {}
+      of_moment_(through_.size()) {
+    if (plume != nullptr) veil_.emplace(shared.scene, tables, *plume, shared.settings.reach_m);
+}
 
 void RowWriter::flame(const Receiver& receiver, float* irradiance) {
     if (points_ != nullptr) return points_->add(shared_->scene, receiver, irradiance);
@@ -34,7 +37,12 @@ void RowWriter::write(const Receiver& receiver, const LatticeReceiver& place, Ro
     GroundIrradiance& light = out.light;
     const auto row = static_cast<std::size_t>(place.row);
     const auto at = [&](std::vector<float>& values) { return values.data() + row * static_cast<std::size_t>(light.stride); };
-    if (place.traced || !interpolate(place, out)) flame(receiver, at(light.irradiance_W_m2_um));
+    const SmokeShade shade = out.smoke != nullptr ? out.smoke->at({receiver.x_m, receiver.y_m, 0.0}) : SmokeShade{};
+    if (place.traced || !interpolate(place, out)) {  // between places in smoke lies the light in smoke
+        flame(receiver, at(light.irradiance_W_m2_um));
+        const double smoke_K = shade.above > 0.0F ? static_cast<double>(shade.temperature_K) : tables_->ambient_K;
+        if (veil_ && points_ == nullptr) veil_->dim(receiver, opacity_.data(), smoke_K, at(light.irradiance_W_m2_um));
+    }
     if (!out.opacity.empty()) std::copy(opacity_.begin(), opacity_.end(), at(out.opacity));
     for (std::size_t l = 0; l < through_.size(); ++l) through_[l] = 1.0F - opacity_[l] / static_cast<float>(kPi);
     if (!out.through.empty()) std::copy(through_.begin(), through_.end(), at(out.through));
@@ -47,7 +55,6 @@ void RowWriter::write(const Receiver& receiver, const LatticeReceiver& place, Ro
                               at(light.irradiance_W_m2_um));
     }
     const auto open = static_cast<float>(1.0 - hidden_sr / kPi);
-    const SmokeShade shade = out.smoke != nullptr ? out.smoke->at({receiver.x_m, receiver.y_m, 0.0}) : SmokeShade{};
     const bool smoky = shade.above > 0.0F || shade.to_sun > 0.0F;
     if (smoky) smoky_sky_.look_from(shade);
     const GroundLevel level = tables_->level_at(shared_->scene.terrain->height_at(receiver.x_m, receiver.y_m));

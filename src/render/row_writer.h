@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/ground_mix.h"
@@ -8,6 +9,7 @@
 #include "render/receiver_light.h"
 #include "render/scene_tables.h"
 #include "render/smoke_shadow.h"
+#include "render/smoke_veil.h"
 #include "render/terrain_sight.h"
 
 namespace pyroscene::render {
@@ -25,7 +27,8 @@ struct Rows {
 class RowWriter {
 public:
     /// \param points  null: hemisphere quadrature
-    RowWriter(const LightScene& shared, const SceneTables& tables, const PointSources* points);
+    /// \param plume   columns of the scene's plume; null: none
+    RowWriter(const LightScene& shared, const SceneTables& tables, const PointSources* points, const FlameColumns* plume);
 
     /// Irradiance by flames alone; adds to `irradiance` and leaves their opacity for write().
     void flame(const Receiver& receiver, float* irradiance);
@@ -43,6 +46,7 @@ private:
     const SceneTables* tables_;
     const SpectralKernels* kernels_;
     ReceiverLight light_;
+    std::optional<SmokeVeil> veil_;  ///< with a plume
     GroundMix mix_, fire_mix_;
     GroundSpectra terrain_, fire_;  ///< what slopes in view send; the glow of burning and burnt ground stands in `fire_`
     SmokySky smoky_sky_;
