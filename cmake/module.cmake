@@ -4,9 +4,6 @@ add_library(pyroscene_options INTERFACE)
 target_compile_features(pyroscene_options INTERFACE cxx_std_20)
 target_compile_options(pyroscene_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                        -Wnon-virtual-dtor $<$<BOOL:${PYROSCENE_WARNINGS_AS_ERRORS}>:-Werror>)
-# GCC 12 warns of overlapping copies within std::string that cannot happen (GCC bug 105651).
-target_compile_options(pyroscene_options INTERFACE
-                       $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
 
 function(pyroscene_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
