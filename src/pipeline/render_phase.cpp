@@ -166,19 +166,21 @@ double distance_to_flame_m(const fire::FlameField& flame, Vec3 from_m) {
 constexpr double kSlantPath_rad = 65.0 * kDegree_rad;
 double height_of_slant_path_m(double length_m) { return length_m * std::cos(kSlantPath_rad); }
 
-/// Of a line of sight, upward or downward.
-double view_zenith_rad(const sensors::ImageChords& chords, const sensors::ImageGeometry& geometry, int line, int sample) {
+/// Line of sight of a pixel, east-north-up.
+Vec3 view_of(const sensors::ImageChords& chords, const sensors::ImageGeometry& geometry, int line, int sample) {
     const auto position = sensors::scan_position_of(geometry, sample, line);
-    const Vec3 v = chords.scan(position.scan).at(position.u, position.v).view_enu;
-    return std::atan2(std::hypot(v.x, v.y), std::abs(v.z));
+    return chords.scan(position.scan).at(position.u, position.v).view_enu;
 }
+
+/// Of a line of sight, upward or downward.
+double view_zenith_rad(Vec3 view_enu) { return std::atan2(std::hypot(view_enu.x, view_enu.y), std::abs(view_enu.z)); }
 
 /// Judged by the corners of the image and the middles of its sides.
 double largest_view_zenith_rad(const sensors::ImageChords& chords, const sensors::ImageGeometry& geometry) {
     double largest_rad = 0.0;
     for (const int line : {0, geometry.lines / 2, geometry.lines - 1})
         for (const int sample : {0, geometry.samples / 2, geometry.samples - 1})
-            largest_rad = std::max(largest_rad, view_zenith_rad(chords, geometry, line, sample));
+            largest_rad = std::max(largest_rad, view_zenith_rad(view_of(chords, geometry, line, sample)));
     return largest_rad;
 }
 
@@ -228,10 +230,9 @@ void render_group(const GroupJob& job, const Monitor& monitor, RunReport& report
     set_rays(job, chords, request);
     const double sun_azimuth_rad = sun.centre().azimuth_rad;
     request.view = [&](int line, int sample, Vec3 hit_m) {
-        const auto position = sensors::scan_position_of(job.geometry, sample, line);
-        const Vec3 v = chords.scan(position.scan).at(position.u, position.v).view_enu;
+        const Vec3 v = view_of(chords, job.geometry, line, sample);
         const double line_of_sight_rad = std::atan2(v.x, v.y) + kPi;
-        const double zenith_rad = std::atan2(std::hypot(v.x, v.y), std::abs(v.z));
+        const double zenith_rad = view_zenith_rad(v);
         return render::PixelView{chords.open() ? std::min(zenith_rad, kSlantPath_rad) : zenith_rad,
                                  std::remainder(sun_azimuth_rad - line_of_sight_rad, 2.0 * kPi),
                                  chords.open() ? 0.0 : hit_m.z - scene.air_base_m};
